@@ -1,0 +1,82 @@
+"""The command line: one file a command under `commands/`.
+
+A command file holds a dataclass `Command` whose fields are the arguments, whose docstring is the help, and
+whose `run()` gives the exit code: 0 done, 2 bad input (one line on stderr), 1 an internal fault.
+Results go to stdout, progress to stderr. Heavy imports stand inside `run`, so that `--help` is quick.
+"""
+
+from __future__ import annotations
+
+import ast
+import importlib
+import os
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+import tyro
+
+from app import __version__, catalog
+from app.errors import TeachframeError, one_line
+
+COMMANDS = "app.cli.commands"
+
+
+def run(argv: Sequence[str]) -> int:
+    """Runs a command line; never raises for a user's mistake."""
+    names = catalog.module_names(COMMANDS)
+    if argv and argv[0] == "--version":
+        print(f"teachframe {__version__}")
+        return 0
+    if not argv or argv[0] in ("-h", "--help"):
+        print(_overview(names))
+        return 0 if argv else 2
+    if argv[0] not in names:
+        print(f"teachframe: no command {argv[0]!r}; expected one of {', '.join(names)}", file=sys.stderr)
+        return 2
+    try:
+        module = importlib.import_module(f"{COMMANDS}.{argv[0]}")
+        command = tyro.cli(
+            module.Command,
+            args=list(argv[1:]),
+            prog=f"teachframe {argv[0]}",
+            description=module.Command.__doc__,
+        )
+        return int(command.run() or 0)
+    except SystemExit as stop:  # tyro's own: --help, or arguments that do not fit
+        return stop.code if isinstance(stop.code, int) else 2
+    except TeachframeError as error:
+        print(f"teachframe {argv[0]}: {error}", file=sys.stderr)
+        return 2
+    except KeyboardInterrupt:
+        return 130
+    except BrokenPipeError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 0
+    except Exception as error:
+        if os.environ.get("TEACHFRAME_DEBUG"):
+            raise
+        what = one_line(f"{type(error).__name__}: {error}", 200)
+        print(
+            f"teachframe {argv[0]}: internal fault ({what}); TEACHFRAME_DEBUG=1 shows the trace",
+            file=sys.stderr,
+        )
+        return 1
+
+
+def _overview(names: list[str]) -> str:
+    lines = [
+        f"teachframe {__version__}: a teach pendant in the browser, and what a simulation left out.",
+        "",
+        "usage: teachframe COMMAND [ARGUMENTS]      teachframe COMMAND --help",
+        "",
+    ]
+    folder = Path(__file__).parent / "commands"
+    lines += [f"  {name:<10} {_first_line(folder / f'{name}.py')}" for name in names]
+    return "\n".join(lines)
+
+
+def _first_line(path: Path) -> str:
+    """A command's first docstring line, read without importing it."""
+    text = ast.get_docstring(ast.parse(path.read_text(encoding="utf-8"))) or ""
+    return text.partition("\n")[0]

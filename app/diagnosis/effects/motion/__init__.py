@@ -1,0 +1,1 @@
+"""Effects seen in joint torques over time."""

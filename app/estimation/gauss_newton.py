@@ -1,0 +1,104 @@
+"""Non-linear least squares with analytic Jacobians: Gauss-Newton, damped when a step fails."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from app.estimation.fit import Fit
+from app.estimation.linear import covariance_from_jacobian
+
+Residual = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]]
+
+
+def gauss_newton(
+    function: Residual,
+    start: np.ndarray,
+    *,
+    names: Sequence[str],
+    units: Sequence[str],
+    sigma: float | None = None,
+    lower: np.ndarray | None = None,
+    upper: np.ndarray | None = None,
+    update: Callable[[np.ndarray, np.ndarray], np.ndarray] | None = None,
+    max_iterations: int = 30,
+    tolerance: float = 1e-10,
+) -> Fit:
+    """Minimises |r(x)|^2.
+
+    A full Gauss-Newton step is tried first; where it does not lower the cost, Levenberg's damping grows
+    until it does. Steps are projected onto the bounds.
+
+    Args:
+        function: x -> (measured minus predicted (m,), d predicted / d step (m, p)).
+        start: (k,) first guess; k is p unless `update` is given.
+        sigma: stated one-sigma noise of one residual; None estimates it.
+        lower, upper: (p,) bounds on the parameters, infinite where there is none.
+        update: (x, step) -> x, where parameters do not simply add (poses). Default x + step.
+        tolerance: stops when a step's expected drop of the cost, relative to the cost, is below this.
+
+    Returns:
+        Fit; `converged` is False with a `message` where the iteration ran out.
+    """
+    x = np.array(start, float)
+    add = update or (lambda value, step: value + step)
+    residual, jacobian = function(x)
+    cost = float(residual @ residual)
+    damping, converged, message, iteration = 0.0, False, "iterations ran out", 0
+    for iteration in range(1, max_iterations + 1):  # noqa: B007  (read after the loop)
+        scale = np.linalg.norm(jacobian, axis=0)
+        scale = np.where(scale > 0, scale, 1.0)
+        scaled = jacobian / scale
+        gradient = scaled.T @ residual
+        hessian = scaled.T @ scaled
+        accepted = False
+        trial, trial_residual, trial_jacobian, trial_cost = x, residual, jacobian, cost
+        for _ in range(12):
+            step = np.linalg.lstsq(hessian + damping * np.eye(len(scale)), gradient, rcond=1e-13)[0] / scale
+            trial = add(x, step)
+            if lower is not None or upper is not None:
+                trial = np.clip(trial, lower, upper)
+            trial_residual, trial_jacobian = function(trial)
+            trial_cost = float(trial_residual @ trial_residual)
+            if np.isfinite(trial_cost) and trial_cost <= cost * (1.0 + 1e-14):
+                accepted = True
+                break
+            damping = max(damping * 10.0, 1e-6)
+        if not accepted:
+            converged, message = True, "no step lowers the cost"
+            break
+        drop = cost - trial_cost
+        x, residual, jacobian, cost = trial, trial_residual, trial_jacobian, trial_cost
+        damping = damping / 10.0 if damping > 1e-9 else 0.0
+        if drop <= tolerance * cost + 1e-300:
+            converged, message = True, "converged"
+            break
+    _, rank, _ = covariance_from_jacobian(jacobian, 1.0)
+    dof = len(residual) - rank
+    source = "stated"
+    if sigma is None:
+        source, sigma = "residual", float(np.sqrt(cost / dof)) if dof > 0 else float("nan")
+    covariance, rank, condition = covariance_from_jacobian(jacobian, sigma)
+    bound = []
+    for index, name in enumerate(names):
+        low = lower is not None and x[index] <= lower[index]
+        high = upper is not None and x[index] >= upper[index]
+        if low or high:
+            bound.append(name)
+    return Fit(
+        tuple(names),
+        tuple(units),
+        x,
+        covariance,
+        residual,
+        dof,
+        sigma,
+        source,
+        rank,
+        condition,
+        converged,
+        message,
+        iteration,
+        tuple(bound),
+    )

@@ -1,0 +1,14 @@
+"""Arms: what a URDF says, where the flange is, how to get it somewhere. The only package that imports pin.
+
+robot.py       RobotModel: forward kinematics, Jacobian, gravity torques, limits
+loading.py     finds a robot by name or path and reads its URDF
+chain.py       the arm as plain arrays, for many poses at once
+inverse.py     damped inverse kinematics that says why it stopped
+"""
+
+from app.kinematics.chain import Chain
+from app.kinematics.inverse import IkResult, solve_ik
+from app.kinematics.loading import load_robot, robot_names
+from app.kinematics.robot import Joint, RobotModel
+
+__all__ = ["Chain", "IkResult", "Joint", "RobotModel", "load_robot", "robot_names", "solve_ik"]

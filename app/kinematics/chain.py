@@ -1,0 +1,122 @@
+"""A serial arm as plain arrays: every pose of a recording in one sweep, without a loop over poses."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from app.geometry.rotation import skew
+
+
+@dataclass(frozen=True, eq=False)
+class Frames:
+    """Where every joint and the flange are, for m poses, in the base frame.
+
+    Args:
+        joint_rotations: (m, n, 3, 3) of the frame of joint j before it moves.
+        joint_positions: (m, n, 3) [m], on the axis of joint j.
+        axes: (m, n, 3) unit direction of each joint.
+        flange_rotations: (m, 3, 3).
+        flange_positions: (m, 3) [m].
+    """
+
+    joint_rotations: np.ndarray
+    joint_positions: np.ndarray
+    axes: np.ndarray
+    flange_rotations: np.ndarray
+    flange_positions: np.ndarray
+
+
+@dataclass(frozen=True, eq=False)
+class Chain:
+    """n joints, base to flange.
+
+    Args:
+        rotations: (n, 3, 3) of the joint's frame in its parent's.
+        translations: (n, 3) [m] likewise.
+        axes: (n, 3) unit, in the joint's own frame.
+        prismatic: (n,) True where the joint slides.
+        flange_rotation: (3, 3) of the flange in the last link.
+        flange_translation: (3,) [m] likewise.
+        masses: (n,) [kg] of what moves with joint j; fixed attachments are merged in.
+        coms: (n, 3) [m] its centre of mass, in the frame of joint j after it moved.
+        inertias: (n, 3, 3) [kg m^2] about that centre.
+    """
+
+    rotations: np.ndarray
+    translations: np.ndarray
+    axes: np.ndarray
+    prismatic: np.ndarray
+    flange_rotation: np.ndarray
+    flange_translation: np.ndarray
+    masses: np.ndarray
+    coms: np.ndarray
+    inertias: np.ndarray
+
+    def __post_init__(self):
+        for name in self.__dataclass_fields__:
+            array = np.array(getattr(self, name))
+            array.flags.writeable = False
+            object.__setattr__(self, name, array)
+
+    @property
+    def joint_count(self) -> int:
+        return len(self.axes)
+
+    def frames(
+        self, q: np.ndarray, shifts: np.ndarray | None = None, turns: np.ndarray | None = None
+    ) -> Frames:
+        """Forward kinematics of m poses.
+
+        Args:
+            q: (m, n) [rad or m].
+            shifts: (n+1, 3) or (m, n+1, 3) [m], displacement of the placement of joint j (the last: of the
+                flange), expressed in the joint's own frame: P -> P @ Trans(shift) @ Rot(turn).
+            turns: the same shapes, rotation matrices (..., n+1, 3, 3).
+
+        Returns:
+            Frames.
+        """
+        q = np.atleast_2d(np.asarray(q, float))
+        m, n = q.shape
+        rotation = np.broadcast_to(np.eye(3), (m, 3, 3))
+        position = np.zeros((m, 3))
+        joint_rotations, joint_positions = np.empty((m, n, 3, 3)), np.empty((m, n, 3))
+        axes = np.empty((m, n, 3))
+        for j in range(n + 1):
+            last = j == n
+            placement_r = self.flange_rotation if last else self.rotations[j]
+            placement_p = self.flange_translation if last else self.translations[j]
+            position = position + rotation @ placement_p
+            rotation = rotation @ placement_r
+            if shifts is not None:
+                position = position + (rotation @ shifts[..., j, :, None])[..., 0]
+            if turns is not None:
+                rotation = rotation @ turns[..., j, :, :]
+            if last:
+                break
+            joint_rotations[:, j], joint_positions[:, j] = rotation, position
+            axis = self.axes[j]
+            axes[:, j] = rotation @ axis
+            if self.prismatic[j]:
+                position = position + axes[:, j] * q[:, j, None]
+            else:
+                k = skew(axis)
+                s, c = np.sin(q[:, j])[:, None, None], np.cos(q[:, j])[:, None, None]
+                rotation = rotation @ (np.eye(3) + s * k + (1.0 - c) * (k @ k))
+        return Frames(joint_rotations, joint_positions, axes, rotation, position)
+
+    def jacobian_columns(self, frames: Frames, points: np.ndarray) -> np.ndarray:
+        """d point / d q_j for points carried by the flange.
+
+        Args:
+            points: (m, 3) [m] in base.
+
+        Returns:
+            (m, 3, n), metres per radian (or per metre for a sliding joint).
+        """
+        arm = points[:, None, :] - frames.joint_positions  # (m, n, 3)
+        turning = np.cross(frames.axes, arm)
+        columns = np.where(self.prismatic[None, :, None], frames.axes, turning)
+        return np.swapaxes(columns, 1, 2)

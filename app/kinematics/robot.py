@@ -1,0 +1,185 @@
+"""One arm: forward kinematics, Jacobian, gravity torques and limits, computed by pin."""
+
+from __future__ import annotations
+
+import threading
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pinocchio as pin  # pyright: ignore[reportMissingImports]  (found through a .pth hook)
+
+from app.geometry.pose import Pose
+from app.kinematics.chain import Chain
+
+GRAVITY = np.array([0.0, 0.0, -9.81])  # m/s^2 in base, pin's default
+
+
+@dataclass(frozen=True)
+class Joint:
+    """One moving joint; limits in rad or m, rad/s or m/s, Nm or N."""
+
+    name: str
+    prismatic: bool
+    lower: float
+    upper: float
+    velocity: float
+    effort: float
+
+
+@dataclass(frozen=True, eq=False)
+class RobotModel:
+    """A serial arm of 1 to 8 joints.
+
+    Args:
+        name: catalogue name, or the file's stem.
+        path: the URDF.
+        joints: in the description's order; users count them from 1.
+        model: pin's model.
+        flange: name of the link tools are bolted to.
+        description: robot.toml of a shipped robot; empty for a bare URDF.
+    """
+
+    name: str
+    path: Path
+    joints: tuple[Joint, ...]
+    model: pin.Model
+    flange: str
+    description: dict[str, Any]
+    _local: threading.local = field(default_factory=threading.local, repr=False)
+
+    @property
+    def title(self) -> str:
+        return self.description.get("title", self.name)
+
+    @property
+    def joint_count(self) -> int:
+        return len(self.joints)
+
+    @cached_property
+    def lower(self) -> np.ndarray:
+        """(n,) lower joint limits [rad or m]."""
+        return np.array([j.lower for j in self.joints])
+
+    @cached_property
+    def upper(self) -> np.ndarray:
+        """(n,) upper joint limits [rad or m]."""
+        return np.array([j.upper for j in self.joints])
+
+    @cached_property
+    def velocity(self) -> np.ndarray:
+        """(n,) joint speed limits [rad/s or m/s]; 0 where the description states none."""
+        return np.array([j.velocity for j in self.joints])
+
+    @cached_property
+    def home(self) -> np.ndarray:
+        """(n,) a comfortable pose: the description's, else zero brought inside the limits."""
+        q = self.description.get("home_rad")
+        return (
+            np.array(q, float)
+            if q is not None
+            else np.clip(np.zeros(len(self.joints)), self.lower, self.upper)
+        )
+
+    @cached_property
+    def has_inertials(self) -> bool:
+        """True where the description states masses."""
+        return bool(np.any(self.chain.masses > 0))
+
+    @cached_property
+    def flange_id(self) -> int:
+        return self.model.getFrameId(self.flange)
+
+    @property
+    def data(self) -> pin.Data:
+        """pin's workspace; one a thread, because pin writes into it."""
+        if not hasattr(self._local, "data"):
+            self._local.data = self.model.createData()
+        return self._local.data
+
+    def flange_matrix(self, q: np.ndarray) -> np.ndarray:
+        """T_base_flange as a plain (4, 4) array, the quickest way to it; q (n,) [rad or m]."""
+        data = self.data
+        pin.framesForwardKinematics(self.model, data, q)
+        return data.oMf[self.flange_id].homogeneous
+
+    def forward(self, q: np.ndarray) -> Pose:
+        """T_base_flange; q (n,) [rad or m]."""
+        return Pose(self.flange_matrix(np.asarray(q, float)))
+
+    def jacobian(self, q: np.ndarray) -> np.ndarray:
+        """(6, n) of the flange's origin, axes of base: rows 0-2 m/rad, rows 3-5 rad/rad; q (n,)."""
+        return pin.computeFrameJacobian(
+            self.model, self.data, np.asarray(q, float), self.flange_id, pin.LOCAL_WORLD_ALIGNED
+        )
+
+    def gravity_torques(self, q: np.ndarray) -> np.ndarray:
+        """Torque each joint must give to hold the arm; (m, n) or (n,) -> the same shape [Nm or N]."""
+        q = np.asarray(q, float)
+        if q.ndim == 1:
+            return pin.computeGeneralizedGravity(self.model, self.data, q).copy()
+        return np.array([pin.computeGeneralizedGravity(self.model, self.data, row) for row in q])
+
+    def within_limits(self, q: np.ndarray, margin: float = 0.0) -> np.ndarray:
+        """True where every joint is inside its limits by `margin`; (..., n) -> (...)."""
+        return np.all((q >= self.lower + margin) & (q <= self.upper - margin), axis=-1)
+
+    @cached_property
+    def reach(self) -> float:
+        """Largest distance of the flange from the axis of joint 1 [m], over the elbow's and shoulder's range.
+
+        Found by search, not by adding lengths: limits are respected.
+        """
+        rng = np.random.default_rng(0)
+        low, high = np.clip(self.lower, -np.pi, np.pi), np.clip(self.upper, -np.pi, np.pi)
+        best = 0.0
+        samples = rng.uniform(low, high, (4000, self.joint_count))
+        frames = self.chain.frames(samples)
+        axis, origin = frames.axes[:, 0], frames.joint_positions[:, 0]
+
+        def distance(q: np.ndarray) -> np.ndarray:
+            p = self.chain.frames(q).flange_positions - origin[0]
+            return np.linalg.norm(p - (p @ axis[0])[:, None] * axis[0], axis=1)
+
+        values = distance(samples)
+        for q in samples[np.argsort(values)[-5:]]:  # climb from the best few
+            step = 0.3
+            value = float(distance(q[None])[0])
+            while step > 1e-4:
+                trials = np.clip(q + rng.normal(0, step, (64, len(q))), low, high)
+                found = distance(trials)
+                if found.max() > value:
+                    q, value = trials[np.argmax(found)], float(found.max())
+                else:
+                    step *= 0.5
+            best = max(best, value)
+        return best
+
+    @cached_property
+    def chain(self) -> Chain:
+        """The arm as plain arrays, for many poses at once."""
+        n, model = self.joint_count, self.model
+        ids = [model.getJointId(j.name) for j in self.joints]
+        placements = [model.jointPlacements[i] for i in ids]
+        flange = model.frames[self.flange_id].placement
+        inertias = [model.inertias[i] for i in ids]
+        axes = np.empty((n, 3))
+        zero = pin.neutral(model)
+        data = model.createData()
+        pin.computeJointJacobians(model, data, zero)
+        for k, i in enumerate(ids):
+            column = pin.getJointJacobian(model, data, i, pin.LOCAL)[:, model.joints[i].idx_v]
+            axes[k] = column[:3] if self.joints[k].prismatic else column[3:]
+        return Chain(
+            rotations=np.array([p.rotation for p in placements]),
+            translations=np.array([p.translation for p in placements]),
+            axes=axes,
+            prismatic=np.array([j.prismatic for j in self.joints]),
+            flange_rotation=flange.rotation,
+            flange_translation=flange.translation,
+            masses=np.array([i.mass for i in inertias]),
+            coms=np.array([i.lever for i in inertias]),
+            inertias=np.array([i.inertia for i in inertias]),
+        )

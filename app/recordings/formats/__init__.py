@@ -1,0 +1,1 @@
+"""One file a format. Each has a `FORMAT` with `key`, `title`, `matches(path, head)` and `read(path) -> Table`."""

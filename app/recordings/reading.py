@@ -1,0 +1,46 @@
+"""Picks the format of a file and reads it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from app import catalog
+from app.errors import FileFormatError
+from app.recordings.table import Table
+
+FORMATS = "app.recordings.formats"
+
+
+def read_table(path: str | Path) -> Table:
+    """Reads a recording.
+
+    The format is the first one that says `matches(path, head)`; the rest of the file is not looked at until a
+    column is asked for.
+
+    Raises:
+        FileFormatError: no such file, empty, or of no known format.
+    """
+    path = Path(path)
+    if path.is_dir():
+        for form in catalog.members(FORMATS, "FORMAT").values():
+            if form.matches(path, b""):
+                return form.read(path)
+        raise FileFormatError("is a folder", file=path, expected="a file")
+    if not path.is_file():
+        raise FileFormatError("there is no such file", file=path)
+    try:
+        with path.open("rb") as file:
+            head = file.read(65536)
+    except OSError as error:
+        raise FileFormatError(f"cannot be read ({error.strerror})", file=path) from None
+    if not head:
+        raise FileFormatError("the file is empty", file=path, row=1, expected="a header row")
+    for form in catalog.members(FORMATS, "FORMAT").values():
+        if form.matches(path, head):
+            return form.read(path)
+    raise FileFormatError(
+        "binary content",
+        file=path,
+        row=1,
+        expected="UTF-8 text: '# key: value' lines, a header row, data rows",
+    )
