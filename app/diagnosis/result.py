@@ -100,20 +100,22 @@ class Evidence:
     """What pictures are drawn from; not part of the JSON.
 
     Args:
-        rows: (m,) line number in the file of each sample.
+        rows: (m,) line number in the file of each sample; of long logs a thinned choice may stand here.
         measured: (m, k) measured values: points in the instrument's (touch: the base) frame [m], or torques [Nm].
         before: (m, k) residual, measured minus predicted by the bare description with its nuisance fitted.
         after: (m, k) residual with the findings in the model.
         components: k labels, such as "x", "y", "z" or "joint 3".
         unit: unit of measured and residuals ("m" or "Nm").
         q: (m, n) joint positions as recorded [rad or m].
-        drivers: label with unit -> (m,) what residuals can be plotted against.
+        drivers: label with unit, "gravity torque of joint 2 [Nm]" -> (m,) in that unit, what residuals can be
+            plotted against.
         T_instrument_base: (4, 4) where the base stands in the measuring frame, static recordings only.
         points_predicted_before: (m, 3) tool point in base, bare description [m]; static only.
         points_predicted_after: (m, 3) with the findings [m]; static only.
         points_measured: (m, 3) measured tool point brought into base [m]; static only.
         flange_tool: (3,) fitted tool point in the flange [m]; static only.
         kept: (m,) False for rows set aside as outliers.
+        t: (m,) time of each sample [s]; None where the recording has none.
     """
 
     rows: np.ndarray
@@ -130,6 +132,7 @@ class Evidence:
     points_predicted_after: np.ndarray | None = None
     points_measured: np.ndarray | None = None
     flange_tool: np.ndarray | None = None
+    t: np.ndarray | None = None
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,0 +1,197 @@
+"""One recording to one diagnosis: finds the robot, checks that the two belong together, picks the engine."""
+
+from __future__ import annotations
+
+import importlib
+import re
+from dataclasses import replace
+from pathlib import Path
+
+from app.diagnosis.model import SavedModel
+from app.diagnosis.result import Diagnosis, Progress
+from app.errors import FileFormatError, InputError, MissingColumnError, UnitError, UnknownNameError
+from app.kinematics import RobotModel, load_robot
+from app.recordings import Table, read_table
+
+#: Kind of recording -> the package whose `diagnose` reads it. Imported when needed.
+ENGINES = {
+    "touch": "app.diagnosis.static",
+    "tracker": "app.diagnosis.static",
+    "motion": "app.diagnosis.motion",
+}
+#: Kinds that other commands read.
+ELSEWHERE = {"points": "teachframe solve", "arcs": "teachframe base"}
+
+
+def diagnose_file(
+    path: str | Path,
+    *,
+    robot: str | None = None,
+    reference: str | Path | None = None,
+    model: SavedModel | None = None,
+    progress: Progress | None = None,
+    seed: int = 0,
+) -> Diagnosis:
+    """Diagnoses one recording.
+
+    Args:
+        path: the recording.
+        robot: a shipped robot's name or a URDF's path; None takes the header's `# robot:`.
+        reference: a motion recording of the same arm in a known good state.
+        model: effects found before, taken as part of the robot.
+
+    Raises:
+        InputError: what was given cannot be used; names file, row and column.
+        Cancelled: `progress` stopped it.
+    """
+    table = read_table(path)
+    kind, noted = kind_of(table)
+    arm = robot_for(table, robot)
+    check_joints(table, arm)
+    if model is not None and model.kind != family(kind):
+        raise InputError(
+            f"the model given was learnt from {model.kind} recordings and this one is of kind {kind}",
+            file=path,
+            expected=f"a model of kind {family(kind)}",
+        )
+    engine = importlib.import_module(ENGINES[kind])
+    extra = {}
+    if reference is not None:
+        extra["reference"] = _reference(reference, kind, path, arm)
+    found: Diagnosis = engine.diagnose(table, arm, progress=progress, seed=seed, model=model, **extra)
+    return replace(found, file=str(path), kind=kind, notes=(*noted, *found.notes))
+
+
+def family(kind: str) -> str:
+    """ "static" or "motion": which models and effects belong to this kind of recording."""
+    return "motion" if kind == "motion" else "static"
+
+
+def kind_of(table: Table) -> tuple[str, tuple[str, ...]]:
+    """The recording's kind, and a note where the header did not say it.
+
+    Raises:
+        InputError: a kind that another command reads, or none at all.
+        UnknownNameError: a kind nobody knows.
+    """
+    kind = table.kind
+    if kind is None:
+        kind = _guessed_kind(table)
+        if kind is None:
+            raise MissingColumnError(
+                "the header does not say what this recording is",
+                file=table.path,
+                row=1,
+                column="kind",
+                expected=f"a line '# kind: {' | '.join(ENGINES)}'",
+            )
+        return kind, (f"The header has no '# kind:'; by its columns it was read as {kind}.",)
+    if kind in ELSEWHERE:
+        raise InputError(
+            f"a file of kind {kind} is read by `{ELSEWHERE[kind]}`",
+            file=table.path,
+            column="kind",
+            expected=" or ".join(ENGINES),
+        )
+    if kind not in ENGINES:
+        raise UnknownNameError(kind, available=ENGINES, what="kind", file=table.path, column="kind")
+    return kind, ()
+
+
+def _guessed_kind(table: Table) -> str | None:
+    """By its columns, where only one kind has them."""
+    has = table.columns
+    if not any(re.fullmatch(r"q\d", name) for name in has):
+        return None
+    if "target" in has:
+        return "touch"
+    if "x" in has or "length" in has:
+        return "tracker"
+    if "t" in has and ("tau1" in has or "i1" in has):
+        return "motion"
+    return None
+
+
+def robot_for(table: Table, named: str | None = None) -> RobotModel:
+    """The robot named on the command line, else by the recording's header (a path is relative to the file).
+
+    Raises:
+        InputError: neither names one, or it cannot be loaded.
+    """
+    if named is not None:
+        return load_robot(named)
+    stated = table.keys.get("robot")
+    if stated is None:
+        raise MissingColumnError(
+            "no robot is named",
+            file=table.path,
+            row=1,
+            column="robot",
+            expected="--robot NAME|FILE.urdf, or a line '# robot: NAME or path relative to the file'",
+        )
+    if not isinstance(stated, str):
+        raise FileFormatError(
+            f"found {str(stated)[:40]!r}",
+            file=table.path,
+            column="robot",
+            expected="a robot's name or the path of a URDF",
+        )
+    try:
+        return load_robot(stated, relative_to=Path(table.path).parent)
+    except UnknownNameError as error:
+        raise UnknownNameError(
+            stated,
+            available=error.available,
+            what="robot (and no such file beside the recording)",
+            file=table.path,
+            column="robot",
+        ) from None
+
+
+def check_joints(table: Table, robot: RobotModel) -> None:
+    """As many joint columns as the robot has joints, turning ones in angles and sliding ones in lengths.
+
+    Raises:
+        MissingColumnError, InputError, UnitError: they do not belong together.
+    """
+    n = robot.joint_count
+    table.require(f"q{j}" for j in range(1, n + 1))
+    beyond = sorted(
+        (name for name in table.columns if re.fullmatch(r"q\d+", name) and not 1 <= int(name[1:]) <= n),
+        key=lambda name: int(name[1:]),
+    )
+    if beyond:
+        raise InputError(
+            f"robot {robot.name} has {n} joints",
+            file=table.path,
+            row=table.header_row,
+            column=table.columns[beyond[0]].name,
+            expected=f"columns q1 to q{n}, or another --robot",
+        )
+    for number, joint in enumerate(robot.joints, 1):
+        column = table.columns[f"q{number}"]
+        slides = column.unit in ("m", "mm")
+        if slides != joint.prismatic:
+            raise UnitError(
+                f"joint {number} of {robot.name} {'slides' if joint.prismatic else 'turns'}",
+                file=table.path,
+                row=table.header_row,
+                column=column.name,
+                expected=f"q{number}_m" if joint.prismatic else f"q{number}_rad or q{number}_deg",
+            )
+
+
+def _reference(reference: str | Path, kind: str, path: str | Path, robot: RobotModel) -> Table:
+    if kind != "motion":
+        raise InputError(
+            f"--reference is for motion recordings and this one is of kind {kind}",
+            file=path,
+            column="kind",
+            expected="motion",
+        )
+    table = read_table(reference)
+    other, _ = kind_of(table)
+    if other != "motion":
+        raise InputError(f"the reference is of kind {other}", file=reference, expected="motion")
+    check_joints(table, robot)
+    return table
