@@ -1,0 +1,156 @@
+"""Convex solids of an arm: what is drawn, and what can be hit.
+
+Every primitive is convex, and so is the hull that joins several; so one convex hull of points serves the
+picture and the collision check alike.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.spatial import ConvexHull
+
+from app.kinematics.robot import RobotModel
+from app.kinematics.shapes import Shape, ball, read_shapes, rod
+
+_CHAMFER = 0.12  # of a solid's smallest extent
+_LARGEST_CHAMFER = 0.012  # m
+
+
+@dataclass(frozen=True, eq=False)
+class Solid:
+    """One convex solid, fixed to a body.
+
+    Args:
+        body: 0 the base, k what joint k moves.
+        link: the link's name, for messages.
+        points: (k, 3) [m] in the body's frame; the solid is their convex hull.
+        colour: red, green, blue, each 0..1.
+        collides: False for what is only drawn.
+    """
+
+    body: int
+    link: str
+    points: np.ndarray
+    colour: tuple[float, float, float]
+    collides: bool
+
+
+def robot_solids(robot: RobotModel) -> tuple[Solid, ...]:
+    """Solids of a robot's links: as drawn in its description, else a stick figure of its joints."""
+    names = tuple(joint.name for joint in robot.joints)
+    shapes = read_shapes(robot.path, names)
+    return solids(shapes or stick_figure(robot))
+
+
+def tool_shapes(robot: RobotModel) -> tuple[Shape, ...]:
+    """Shapes of the tool a shipped robot carries (`tool.urdf` beside its description), in the flange's frame."""
+    path = robot.path.with_name("tool.urdf")
+    return read_shapes(path, ()) if robot.description and path.is_file() else ()
+
+
+def solids(shapes: Sequence[Shape]) -> tuple[Solid, ...]:
+    """Joins the shapes that share a hull; the others stand alone."""
+    families: dict[object, list[Shape]] = {}
+    for index, shape in enumerate(shapes):
+        key = (shape.body, shape.link, shape.hull) if shape.hull else index
+        families.setdefault(key, []).append(shape)
+    return tuple(
+        Solid(
+            family[0].body,
+            family[0].link,
+            np.concatenate([shape.T_body_shape.apply(outline(shape)) for shape in family]),
+            family[0].colour,
+            family[0].collides,
+        )
+        for family in families.values()
+    )
+
+
+def outline(shape: Shape) -> np.ndarray:
+    """Points whose convex hull is the shape, edges slightly broken; (k, 3) [m] in the shape's frame."""
+    if shape.kind == "sphere":
+        return _sphere_points(shape.size[0])
+    if shape.kind == "box":
+        half = np.array(shape.size) / 2
+        cut = min(_CHAMFER * 2 * half.min(), _LARGEST_CHAMFER)
+        signs = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], float)
+        return np.concatenate([signs * (half - cut * (np.arange(3) != axis)) for axis in range(3)])
+    bottom, length, top = shape.size
+    rings = []
+    for radius, z, inwards in ((bottom, -length / 2, 1.0), (top, length / 2, -1.0)):
+        cut = min(_CHAMFER * min(2 * radius, length), _LARGEST_CHAMFER)
+        for r, height in ((radius - cut, z), (radius, z + inwards * cut)):
+            rings.append(_ring(max(r, 1e-4), height))
+    return np.concatenate(rings)
+
+
+def faces(points: np.ndarray, crease: float = 0.6) -> tuple[np.ndarray, np.ndarray]:
+    """Triangles of a convex hull, its vertices parted along edges sharper than `crease` [rad].
+
+    A viewer that averages the normals of shared vertices then shows rounds round and edges sharp.
+
+    Returns:
+        vertices (k, 3), triangles (t, 3), wound outwards.
+    """
+    hull = ConvexHull(points)
+    triangles, normals = hull.simplices.copy(), hull.equations[:, :3]
+    corner = points[triangles]
+    winding = np.einsum(
+        "ij,ij->i", np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0]), normals
+    )
+    triangles[winding < 0] = triangles[winding < 0][:, ::-1]
+    smooth = np.arange(len(triangles))  # union-find over neighbours that meet softly
+    for a, neighbours in enumerate(hull.neighbors):
+        for b in neighbours:
+            if a < b and normals[a] @ normals[b] > np.cos(crease):
+                ra, rb = _root(smooth, a), _root(smooth, b)
+                smooth[rb] = ra
+    group = np.array([_root(smooth, i) for i in range(len(triangles))])
+    keys = np.stack([triangles.ravel(), np.repeat(group, 3)], axis=1)
+    unique, inverse = np.unique(keys, axis=0, return_inverse=True)
+    return points[unique[:, 0]], inverse.reshape(-1, 3)
+
+
+def stick_figure(robot: RobotModel) -> tuple[Shape, ...]:
+    """A drawing for a description without shapes: a can at every joint, rods between them."""
+    chain = robot.chain
+    scale = max(robot.reach, 0.1)
+    thick, dark = 0.035 * scale, (0.25, 0.27, 0.30)
+    shapes: list[Shape] = []
+    spans = [*chain.translations, chain.flange_translation]
+    for body, span in enumerate(spans):
+        if np.linalg.norm(span) > thick:
+            link = f"link {body}" if body else "base"
+            shapes.append(_on(body, rod(np.zeros(3), span, thick, 0.8 * thick, link=link)))
+        if body < robot.joint_count:
+            axis = chain.axes[body] * 1.6 * thick
+            shapes.append(_on(body + 1, rod(-axis, axis, 1.3 * thick, link=f"joint {body + 1}", colour=dark)))
+    shapes.append(_on(robot.joint_count, ball(chain.flange_translation, thick, link="flange")))
+    return tuple(shapes)
+
+
+def _on(body: int, shape: Shape) -> Shape:
+    return Shape(body, shape.link, shape.kind, shape.size, shape.T_body_shape, shape.colour)
+
+
+def _ring(radius: float, z: float) -> np.ndarray:
+    count = 12 if radius < 0.02 else 20 if radius < 0.06 else 28
+    angle = np.arange(count) * (2 * np.pi / count)
+    return np.stack([radius * np.cos(angle), radius * np.sin(angle), np.full(count, z)], axis=1)
+
+
+def _sphere_points(radius: float) -> np.ndarray:
+    rings = 7 if radius < 0.04 else 11
+    polar = np.linspace(0, np.pi, rings + 2)[1:-1]
+    around = [_ring(radius * np.sin(p), radius * np.cos(p)) for p in polar]
+    return np.concatenate([*around, [[0, 0, radius], [0, 0, -radius]]])
+
+
+def _root(parents: np.ndarray, i: int) -> int:
+    while parents[i] != i:
+        parents[i] = parents[parents[i]]
+        i = parents[i]
+    return int(i)
