@@ -1,0 +1,53 @@
+"""state, action -> state: finds the family that knows the action, and keeps what Undo needs."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import cache
+
+from app import catalog
+from app.session.actions import AnyAction, ChooseRobot, Move, Redo, Undo
+from app.session.refusals import refusal
+from app.session.state import SessionState
+
+STEPS = "app.session.steps"
+
+Reducer = Callable[[SessionState, AnyAction], SessionState]
+
+
+@cache
+def _reducers() -> dict[type, Reducer]:
+    found: dict[type, Reducer] = {}
+    for module in catalog.modules(STEPS).values():
+        found.update(module.ACTIONS)
+    return found
+
+
+def reduce(state: SessionState, action: AnyAction) -> SessionState:
+    """The state after an action. Pure: the state given is left as it was.
+
+    Raises:
+        ActionRefusedError: the state does not allow the action; says what to do instead.
+    """
+    if isinstance(action, Undo):
+        return _undo(state)
+    if isinstance(action, Redo):
+        return _redo(state)
+    after = _reducers()[type(action)](state, action).but(count=state.count + 1)
+    if isinstance(action, Move):  # moving is no change of the list: what Undo takes back stays the same
+        return after
+    if isinstance(action, ChooseRobot):  # another arm's points mean nothing here
+        return after.but(before=None, after=None)
+    return after.but(before=state, after=None)
+
+
+def _undo(state: SessionState) -> SessionState:
+    if state.before is None:
+        raise refusal("nothing_to_undo")
+    return state.before.but(q=state.q, count=state.count + 1, after=state)
+
+
+def _redo(state: SessionState) -> SessionState:
+    if state.after is None:
+        raise refusal("nothing_to_redo")
+    return state.after.but(q=state.q, count=state.count + 1, before=state)

@@ -1,0 +1,132 @@
+"""The state of one session: frozen, and everything a screen needs to draw itself."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from functools import lru_cache
+from types import MappingProxyType
+from typing import Any
+
+import numpy as np
+
+from app import catalog
+from app.calibration.captures import Capture, Mode, Step
+from app.calibration.result import ToolCalibration
+from app.geometry import Pose
+from app.kinematics import RobotModel, load_robot, robot_names
+
+MODES = "app.calibration.modes"
+FIRST_ROBOT = "jby50"
+FIRST_MODE = "touch_zx"
+
+
+@dataclass(frozen=True)
+class Tool:
+    """A tool frame that was accepted, under its name."""
+
+    name: str
+    T_flange_tool: Pose
+
+
+@dataclass(frozen=True)
+class Source:
+    """Where loaded points came from; `rounding` as in `LoadPoints`."""
+
+    name: str
+    rounding: tuple[float, float] = (0.0, 0.0)
+    angles: str = "ZYX"
+
+
+@dataclass(frozen=True, eq=False)
+class SessionState:
+    """One moment of a session.
+
+    Args:
+        robot: name of the arm.
+        q: (n,) where it stands [rad or m].
+        mode: key of the wizard mode.
+        touches: how many touches its list has.
+        method: estimator of the tool point.
+        captures: recorded points by step.
+        comments: notes by step.
+        result: what Calculate gave; None as soon as a point changes.
+        tools: accepted tools, the last one is active.
+        source: the file the points came from, None where they were recorded here.
+        count: actions so far.
+        before: what Undo goes back to.
+        after: what Redo goes forward to.
+    """
+
+    robot: str
+    q: tuple[float, ...]
+    mode: str
+    touches: int
+    method: str = "joint"
+    captures: Mapping[str, Capture] = field(default_factory=dict)
+    comments: Mapping[str, str] = field(default_factory=dict)
+    result: ToolCalibration | None = None
+    tools: tuple[Tool, ...] = ()
+    source: Source | None = None
+    count: int = 0
+    before: SessionState | None = field(default=None, repr=False)
+    after: SessionState | None = field(default=None, repr=False)
+
+    def __post_init__(self):
+        object.__setattr__(self, "captures", MappingProxyType(dict(self.captures)))
+        object.__setattr__(self, "comments", MappingProxyType(dict(self.comments)))
+
+    @property
+    def model(self) -> RobotModel:
+        return robot_named(self.robot)
+
+    @property
+    def steps(self) -> tuple[Step, ...]:
+        """The wizard's rows."""
+        return mode_named(self.mode).steps(self.touches)
+
+    @property
+    def missing(self) -> tuple[Step, ...]:
+        """Rows without a recorded point, in order."""
+        return tuple(step for step in self.steps if step.key not in self.captures)
+
+    @property
+    def tool(self) -> Tool | None:
+        """The active tool; None while only the bare flange is known."""
+        return self.tools[-1] if self.tools else None
+
+    @property
+    def ordered(self) -> tuple[Capture, ...]:
+        """Recorded points in the order of the wizard's rows."""
+        return tuple(self.captures[s.key] for s in self.steps if s.key in self.captures)
+
+    def step(self, key: str) -> Step | None:
+        return next((s for s in self.steps if s.key == key), None)
+
+    def but(self, **changes: Any) -> SessionState:
+        """The same state with these fields changed."""
+        return replace(self, **changes)
+
+
+@lru_cache(maxsize=16)
+def robot_named(name: str) -> RobotModel:
+    """A shipped arm, read once; raises UnknownNameError."""
+    return load_robot(name)
+
+
+def mode_named(key: str) -> Mode:
+    """A wizard mode; raises UnknownNameError."""
+    return catalog.member(MODES, "MODE", key, what="wizard mode")
+
+
+def first_state(robot: str | None = None, mode: str = FIRST_MODE) -> SessionState:
+    """Where every session starts: the arm at home, the position + Z/X wizard, nothing recorded."""
+    names = robot_names()
+    chosen = robot or (FIRST_ROBOT if FIRST_ROBOT in names or not names else names[0])
+    model = robot_named(chosen)
+    return SessionState(chosen, as_tuple(model.home), mode, mode_named(mode).default_touches)
+
+
+def as_tuple(q: np.ndarray) -> tuple[float, ...]:
+    """Joint positions as plain numbers."""
+    return tuple(float(v) for v in q)

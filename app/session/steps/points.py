@@ -1,0 +1,113 @@
+"""Recording points, taking them away, loading them from a file."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from app.calibration.captures import Capture, Step
+from app.calibration.tool import METHODS
+from app.errors import UnknownNameError
+from app.geometry import Pose
+from app.session.actions import Cancel, Comment, Delete, LoadPoints, Record, ReRecord
+from app.session.refusals import refusal
+from app.session.state import SessionState, Source, mode_named
+from app.session.steps.setup import checked_joints
+
+
+def known_step(state: SessionState, key: str) -> Step:
+    """The wizard's row of this key; raises ActionRefusedError."""
+    step = state.step(key)
+    if step is None:
+        raise refusal("no_step", step=key, steps=", ".join(s.key for s in state.steps))
+    return step
+
+
+def _record(state: SessionState, action: Record) -> SessionState:
+    step = known_step(state, action.step)
+    if step.key in state.captures:
+        raise refusal("recorded", title=step.title)
+    return _captured(state, step, action.q)
+
+
+def _re_record(state: SessionState, action: ReRecord) -> SessionState:
+    step = known_step(state, action.step)
+    if step.key not in state.captures:
+        raise refusal("not_recorded", title=step.title)
+    return _captured(state, step, action.q)
+
+
+def _captured(state: SessionState, step: Step, q: tuple[float, ...] | None) -> SessionState:
+    """The flange pose is what the controller shows: its nominal forward kinematics of the angles it reads."""
+    joints = state.q if q is None else checked_joints(state, q)
+    row = [s.key for s in state.steps].index(step.key) + 1
+    angles = np.array(joints)
+    angles.flags.writeable = False
+    capture = Capture(step.key, step.role, state.model.forward(angles), angles, row)
+    return state.but(q=joints, captures={**state.captures, step.key: capture}, result=None, source=None)
+
+
+def _delete(state: SessionState, action: Delete) -> SessionState:
+    step = known_step(state, action.step)
+    if step.key not in state.captures:
+        raise refusal("not_recorded", title=step.title)
+    return state.but(
+        captures={key: c for key, c in state.captures.items() if key != step.key},
+        comments={key: text for key, text in state.comments.items() if key != step.key},
+        result=None,
+    )
+
+
+def _comment(state: SessionState, action: Comment) -> SessionState:
+    step = known_step(state, action.step)
+    return state.but(comments={**state.comments, step.key: action.text.strip()})
+
+
+def _cancel(state: SessionState, action: Cancel) -> SessionState:
+    if not state.captures and state.result is None:
+        raise refusal("nothing_to_cancel")
+    return state.but(captures={}, comments={}, result=None, source=None)
+
+
+def _load(state: SessionState, action: LoadPoints) -> SessionState:
+    """Rows are given to the wizard's steps in the order in which they ask for that role."""
+    try:
+        mode = mode_named(action.mode)
+    except UnknownNameError as error:
+        raise refusal("unknown", reason=str(error)) from None
+    if action.method not in METHODS:
+        raise refusal("unknown", reason=f"unknown estimator {action.method!r}")
+    touches = sum("touch" in point.role.split("+") for point in action.points)
+    if not mode.least_touches <= touches <= mode.most_touches:
+        raise refusal(
+            "touches", mode=mode.title, least=mode.least_touches, most=mode.most_touches, given=touches
+        )
+    steps = mode.steps(touches)
+    left = list(action.points)
+    captures = {}
+    for step in steps:
+        point = next((p for p in left if p.role == step.role), None)
+        if point is None:
+            raise refusal("missing", titles=f"{step.title} (role {step.role})")
+        left.remove(point)
+        q = None if point.q is None else np.array(point.q)
+        pose = Pose(np.vstack([np.array(point.T_base_flange), [0.0, 0.0, 0.0, 1.0]]))
+        captures[step.key] = Capture(step.key, step.role, pose, q, point.row)
+    return state.but(
+        mode=mode.key,
+        touches=touches,
+        method=action.method,
+        captures=captures,
+        comments={},
+        result=None,
+        source=Source(action.source, action.rounding, action.angles),
+    )
+
+
+ACTIONS = {
+    Record: _record,
+    ReRecord: _re_record,
+    Delete: _delete,
+    Comment: _comment,
+    Cancel: _cancel,
+    LoadPoints: _load,
+}

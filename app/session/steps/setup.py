@@ -1,0 +1,75 @@
+"""What the wizard is about: arm, mode, estimator; and where the arm stands."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from app.calibration.tool import METHODS
+from app.errors import UnknownNameError
+from app.session.actions import ChooseMethod, ChooseMode, ChooseRobot, Move
+from app.session.refusals import refusal
+from app.session.state import SessionState, first_state, mode_named
+
+#: How far beyond a limit [rad or m] a joint may be written, because it was read from a screen with few digits.
+LIMIT_SLACK = 1e-6
+
+
+def _choose_robot(state: SessionState, action: ChooseRobot) -> SessionState:
+    try:
+        fresh = first_state(action.robot, state.mode)
+    except UnknownNameError as error:
+        raise refusal("unknown", reason=str(error)) from None
+    return fresh.but(touches=state.touches, method=state.method)
+
+
+def _choose_mode(state: SessionState, action: ChooseMode) -> SessionState:
+    try:
+        mode = mode_named(action.mode)
+    except UnknownNameError as error:
+        raise refusal("unknown", reason=str(error)) from None
+    touches = mode.default_touches if action.touches is None else action.touches
+    if not mode.least_touches <= touches <= mode.most_touches:
+        raise refusal(
+            "touches", mode=mode.title, least=mode.least_touches, most=mode.most_touches, given=touches
+        )
+    kept = {
+        step.key: state.captures[step.key]
+        for step in mode.steps(touches)
+        if step.key in state.captures and state.captures[step.key].role == step.role
+    }
+    comments = {key: text for key, text in state.comments.items() if key in kept}
+    return state.but(mode=mode.key, touches=touches, captures=kept, comments=comments, result=None)
+
+
+def _choose_method(state: SessionState, action: ChooseMethod) -> SessionState:
+    if action.method not in METHODS:
+        raise refusal("unknown", reason=f"unknown estimator {action.method!r}: {' or '.join(METHODS)}")
+    return state.but(method=action.method, result=None)
+
+
+def checked_joints(state: SessionState, q: tuple[float, ...]) -> tuple[float, ...]:
+    """The joint positions if the arm can stand there; raises ActionRefusedError."""
+    robot = state.model
+    if len(q) != robot.joint_count:
+        raise refusal("joint_count", robot=state.robot, needed=robot.joint_count, given=len(q))
+    for number, value in enumerate(q, 1):
+        if not math.isfinite(value):
+            raise refusal("not_a_number", joint=number)
+    beyond = (np.array(q) < robot.lower - LIMIT_SLACK) | (np.array(q) > robot.upper + LIMIT_SLACK)
+    if beyond.any():
+        raise refusal("beyond_limit", joint=int(np.flatnonzero(beyond)[0]) + 1)
+    return tuple(float(v) for v in q)
+
+
+def _move(state: SessionState, action: Move) -> SessionState:
+    return state.but(q=checked_joints(state, action.q))
+
+
+ACTIONS = {
+    ChooseRobot: _choose_robot,
+    ChooseMode: _choose_mode,
+    ChooseMethod: _choose_method,
+    Move: _move,
+}

@@ -1,0 +1,126 @@
+"""An arm with its true tool, a spike on a table, and a hand that touches the spike with noise."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from app.geometry import Pose
+from app.kinematics import IkResult, RobotModel, solve_ik
+from app.units import from_mm
+
+#: One-sigma error of a careful hand, per axis.
+TOUCH_SIGMA = from_mm(0.15)
+#: Closer than this the tip counts as touching.
+CONTACT_DISTANCE = from_mm(1.0)
+#: Where the spike stands where the description does not say: shares of the reach, ahead of the arm at home and up.
+_SPIKE_AHEAD, _SPIKE_UP = 0.55, 0.20
+#: A torch for arms whose description names no tool.
+_PLAIN_TOOL = Pose.of(position=np.array([0.0, 0.0, from_mm(150.0)]))
+
+
+@dataclass(frozen=True, eq=False)
+class World:
+    """What is true in the cell; a pendant only ever sees `shown_flange`.
+
+    Args:
+        robot: the arm.
+        T_flange_tool_true: the tool as it really is: its point and its axes.
+        p_base_spike: (3,) tip of the spike [m].
+        table_height: top of the table in base z [m].
+        touch_sigma: one-sigma error of a touch, per axis [m].
+        contact_distance: tip to spike below which they touch [m].
+    """
+
+    robot: RobotModel
+    T_flange_tool_true: Pose
+    p_base_spike: np.ndarray
+    table_height: float
+    touch_sigma: float = TOUCH_SIGMA
+    contact_distance: float = CONTACT_DISTANCE
+
+    def __post_init__(self):
+        spike = np.array(self.p_base_spike, float)
+        spike.flags.writeable = False
+        object.__setattr__(self, "p_base_spike", spike)
+
+    def shown_flange(self, q: np.ndarray) -> Pose:
+        """T_base_flange as the controller computes it from its joint angles; q (n,)."""
+        return self.robot.forward(q)
+
+    def true_flange(self, q: np.ndarray) -> Pose:
+        """T_base_flange as it really is while the controller shows `q` (n,)."""
+        return self.robot.forward(q)
+
+    def tip(self, q: np.ndarray) -> Pose:
+        """T_base_tool of the true tool; q (n,)."""
+        return self.true_flange(q) @ self.T_flange_tool_true
+
+    def distance(self, q: np.ndarray) -> float:
+        """True tip to spike [m]; q (n,)."""
+        return float(np.linalg.norm(self.tip(q).position - self.p_base_spike))
+
+    def touching(self, q: np.ndarray) -> bool:
+        """True where the tip is in contact with the spike; q (n,)."""
+        return self.distance(q) <= self.contact_distance
+
+    def touch(self, q: np.ndarray, rng: np.random.Generator) -> IkResult:
+        """Brings the tip to the spike in the orientation it has, as well as a hand can.
+
+        Args:
+            q: (n,) where the arm is.
+            rng: draws the hand's error.
+        """
+        aim = self.p_base_spike + rng.normal(0.0, self.touch_sigma, 3)
+        return self._go(q, Pose.of(self.tip(q).rotation, aim))
+
+    def stroke(self, q: np.ndarray, axis: int, length: float, rng: np.random.Generator) -> IkResult:
+        """Moves the tip along one of the true tool's axes without turning it, as well as a hand can.
+
+        Args:
+            q: (n,) where the stroke begins.
+            axis: 0, 1 or 2.
+            length: [m].
+            rng: draws the hand's error.
+        """
+        start = self.tip(q)
+        end = start.position + length * start.rotation[:, axis] + rng.normal(0.0, self.touch_sigma, 3)
+        return self._go(q, Pose.of(start.rotation, end))
+
+    def _go(self, q: np.ndarray, target: Pose) -> IkResult:
+        return solve_ik(self.robot, target, q, T_flange_tool=self.T_flange_tool_true, max_steps=200)
+
+
+def default_world(robot: RobotModel) -> World:
+    """The practice cell of an arm: its own tool, a spike within easy reach, a table under it."""
+    cell = robot.description.get("cell", {})
+    reach = float(robot.description.get("reach_m", robot.reach))
+    spike = cell.get("spike_mm")
+    p_base_spike = (
+        from_mm(np.array(spike, float))
+        if spike is not None
+        else _ahead(robot, _SPIKE_AHEAD * reach, _SPIKE_UP * reach)
+    )
+    table = from_mm(float(cell["table_mm"])) if "table_mm" in cell else float(0.6 * p_base_spike[2])
+    return World(robot, default_tool(robot), p_base_spike, table)
+
+
+def default_tool(robot: RobotModel) -> Pose:
+    """T_flange_tool of the tool the arm's description comes with, else a plain torch straight ahead."""
+    tool = robot.description.get("tool")
+    if not tool:
+        return _PLAIN_TOOL
+    return Pose.from_quaternion(
+        np.array(tool.get("quaternion_wxyz", (1.0, 0.0, 0.0, 0.0)), float),
+        from_mm(np.array(tool["position_mm"], float)),
+    )
+
+
+def _ahead(robot: RobotModel, distance: float, height: float) -> np.ndarray:
+    """(3,) [m] before the arm as it stands at home: makers do not agree which way that is."""
+    towards = robot.forward(robot.home).position[:2]
+    length = np.linalg.norm(towards)
+    direction = towards / length if length > 1e-3 else np.array([1.0, 0.0])
+    direction = np.round(direction, 1) / np.linalg.norm(np.round(direction, 1))
+    return np.array([*(distance * direction), height])
