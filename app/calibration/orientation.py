@@ -14,7 +14,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy import stats
+from scipy import special
 
 from app.calibration.captures import Capture
 from app.calibration.result import AxisCone
@@ -121,7 +121,7 @@ def cone(axis: Axis, covariance: np.ndarray, sigma: float, dof: int) -> AxisCone
     ends = 2.0 * sigma**2 * np.eye(3) + axis.lever @ covariance @ axis.lever.T
     across = np.eye(3) - np.outer(axis.direction, axis.direction)
     spread = float(np.sqrt(np.linalg.eigvalsh(across @ ends @ across)[-1])) / axis.stroke
-    quantile = stats.f.ppf(0.95, 2, dof) if dof > 0 else stats.chi2.ppf(0.95, 2) / 2.0
+    quantile = special.fdtri(2, dof, 0.95) if dof > 0 else special.chdtri(2, 0.05) / 2.0
     return AxisCone(axis.name, axis.stroke, spread, float(np.arctan(spread * np.sqrt(2.0 * quantile))))
 
 

@@ -64,6 +64,7 @@ class ToolCalibration:
         condition: largest over smallest singular value of the equations of the tool point.
         rank: directions of the tool point that are determined.
         rows: (n,) where the touches stand: line in the file, or number of the capture.
+        gains: (n, 3, 3) how far the tool point moves for an error of each tip.
         weights: (n,) 0..1 what each touch counted; all 1 unless the robust estimator was asked for.
         cones: uncertainty of the taught axes.
         warnings: what the checks found.
@@ -81,12 +82,13 @@ class ToolCalibration:
     condition: float
     rank: int
     rows: tuple[int, ...] = ()
+    gains: np.ndarray = field(default_factory=lambda: np.zeros((0, 3, 3)))
     weights: np.ndarray = field(default_factory=lambda: np.ones(0))
     cones: tuple[AxisCone, ...] = ()
     warnings: tuple[Warning_, ...] = ()
 
     def __post_init__(self):
-        for name in ("p_base", "residual_vectors", "covariance", "weights"):
+        for name in ("p_base", "residual_vectors", "covariance", "gains", "weights"):
             array = np.array(getattr(self, name), float)
             array.flags.writeable = False
             object.__setattr__(self, name, array)

@@ -79,6 +79,7 @@ def calibrate(
         condition=fit.condition,
         rank=3,
         rows=tuple(c.row or i + 1 for i, c in enumerate(touches)),
+        gains=fit.gains,
         weights=fit.weights,
         cones=tuple(cone(axis, covariance, fit.sigma, fit.dof) for axis in axes),
     )

@@ -141,10 +141,9 @@ def _angle_gradients(first: Axes, second: Axes, sine: np.ndarray) -> tuple[np.nd
 def _jacobians(rotation, first, second, along_1, along_2, offset) -> tuple[np.ndarray, np.ndarray]:
     """d (displacement, rotation) in the frame's axes / d (shift, tilt) of each axis, (..., 6, 4) each.
 
-    With everything in the frame's axes (Z = ez, X = ex) and axis 2 along n = (0, b, c):
-    a change dz of Z turns the frame by phi_x = -dz_y, phi_y = dz_x; phi_z keeps X square to axis 2:
-    b phi_z = -(dn_x + c (-dz_x)) ... from d(X . n) = 0. The origin follows L1 sideways and slides along it
-    until the perpendicular's other end stays on L2.
+    With everything in the frame's axes (Z = ez, X = ex) and axis 2 along n = (0, b, c): a change dz of Z turns
+    the frame by phi_x = -dz_y and phi_y = dz_x; phi_z keeps X square to axis 2, d(X . n) = 0. The origin
+    follows L1 sideways and slides along it until the perpendicular's other end stays on L2.
     """
     to_frame = np.swapaxes(rotation, -1, -2)
     n = np.einsum("...ij,...j->...i", to_frame, second.direction)

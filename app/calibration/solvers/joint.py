@@ -105,13 +105,14 @@ def fit_joint(rotations: np.ndarray, positions: np.ndarray, *, least: float = 0.
     values, directions = refuse_one_axis(rotations, least)
     tool, touched = _solve_one(rotations, positions)
     residuals = rotations @ tool + positions - touched
-    half = directions / values[:, None]
+    inverse = (directions.T / values**2) @ directions
+    gains = -inverse @ np.swapaxes(rotations - rotations.mean(axis=0), 1, 2)
     dof = 3 * len(positions) - 6
     return PointFit(
         tool,
         touched,
         residuals,
-        half.T @ half,
+        gains,
         float(values[0] / values[-1]),
         float(np.sqrt(np.sum(residuals**2) / dof)),
         np.ones(len(positions)),

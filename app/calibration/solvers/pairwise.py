@@ -49,14 +49,13 @@ def fit_pairwise(rotations: np.ndarray, positions: np.ndarray, *, least: float =
     spread = np.zeros((len(positions), 3, 3))  # A^T D: what one touch's error does to the right-hand side
     spread[:-1] += matrix
     spread[1:] -= matrix
-    half = inverse @ np.swapaxes(spread, 1, 2)  # (n, 3, 3)
-    covariance = np.einsum("nij,nkj->ik", half, half)
+    gains = -inverse @ np.swapaxes(spread, 1, 2)
     values = np.linalg.svd(stacked, compute_uv=False)
     return PointFit(
         tool,
         touched,
         tips - touched,
-        covariance,
+        gains,
         float(values[0] / values[-1]),
         fair.sigma,
         fair.weights,

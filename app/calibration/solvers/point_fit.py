@@ -20,7 +20,7 @@ class PointFit:
         tool: (3,) in the flange [m].
         touched: (3,) in base [m].
         residuals: (n, 3) tip minus touched point, in base [m].
-        unit_covariance: (3, 3) covariance of `tool` for touches with one metre of noise on each axis.
+        gains: (n, 3, 3) how far the tool point moves for an error of each tip.
         condition: of the equations of the tool point.
         sigma: sqrt(SSE / (3 n - 6)) of the order-free fit [m].
         weights: (n,) what each touch counted.
@@ -29,10 +29,15 @@ class PointFit:
     tool: np.ndarray
     touched: np.ndarray
     residuals: np.ndarray
-    unit_covariance: np.ndarray
+    gains: np.ndarray
     condition: float
     sigma: float
     weights: np.ndarray
+
+    @property
+    def unit_covariance(self) -> np.ndarray:
+        """(3, 3) covariance of `tool` for independent tips with unit noise on each axis."""
+        return np.einsum("nij,nkj->ik", self.gains, self.gains)
 
     @property
     def dof(self) -> int:

@@ -43,8 +43,8 @@ def fit_robust(rotations: np.ndarray, positions: np.ndarray, *, least: float = 0
         lengths = np.linalg.norm(rows @ solution + positions, axis=1)
     residuals = rows @ solution + positions
     normal = np.einsum("n,nij,nik->jk", weights, rows, rows)
-    middle = np.einsum("n,nij,nik->jk", weights**2, rows, rows)
-    inverse = np.linalg.inv(normal)
-    unit = (inverse @ middle @ inverse)[:3, :3]
-    sigma = float(np.sqrt(np.sum(weights[:, None] * residuals**2) / (3 * n - 6)))
-    return PointFit(solution[:3], solution[3:], residuals, unit, start.condition, sigma, weights)
+    gains = -(np.linalg.inv(normal) @ np.swapaxes(weights[:, None, None] * rows, 1, 2))[:, :3]
+    # The share that counts in full corrects for what the weights take out of the sum (Huber 1981, eq. 7.6.2).
+    full = max(float(np.mean(weights > 0.999)), 1.0 / n)
+    sigma = float(np.sqrt(np.sum((weights[:, None] * residuals) ** 2) / (3 * n - 6))) / full
+    return PointFit(solution[:3], solution[3:], residuals, gains, start.condition, sigma, weights)

@@ -1,0 +1,117 @@
+"""One points file from reading to everything that can be said of it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from app.calibration.captures import Capture, of_role
+from app.calibration.modes import mode
+from app.calibration.points import Points, read_points
+from app.calibration.quality.leave_one_out import LeftOut, leave_one_out
+from app.calibration.quality.light import Light, light
+from app.calibration.quality.references import Gap, gap_to
+from app.calibration.quality.rounding import Rounding, least_turn, rounding
+from app.calibration.result import ToolCalibration
+from app.calibration.tool import calibrate
+from app.errors import DegenerateGeometryError, InputError, UnknownNameError
+from app.units import mm
+
+
+@dataclass(frozen=True, eq=False)
+class Solved:
+    """A points file with its tool frame and its quality."""
+
+    points: Points
+    result: ToolCalibration
+    rounding: Rounding
+    gaps: tuple[Gap, ...]
+    left_out: tuple[LeftOut, ...]
+    light: Light
+
+
+def solve_file(
+    path: str | Path,
+    *,
+    method: str = "joint",
+    orientation: str | None = None,
+    mode_key: str | None = None,
+    options: dict[str, Any] | None = None,
+) -> Solved:
+    """Reads and solves one points file.
+
+    Args:
+        path: the file.
+        method: "joint", "pairwise" or "robust".
+        orientation: "default", "z", "zx", "xy"; None takes what the roles in the file allow.
+        mode_key: solve by this wizard mode instead of touches and strokes.
+        options: further options of that mode.
+
+    Raises:
+        InputError, DegenerateGeometryError: name the file.
+    """
+    points = read_points(path)
+    try:
+        if mode_key is not None:
+            result = mode(mode_key).solve(points.captures, **(options or {}))
+        else:
+            result = calibrate(
+                points.captures,
+                method=method,
+                orientation=orientation,
+                least_turn=least_turn(points),
+                context={"points": points},
+            )
+    except DegenerateGeometryError as error:
+        raise _placed(error, points) from None
+    except UnknownNameError:
+        raise
+    except InputError as error:
+        raise type(error)(
+            error.problem, file=points.path, row=error.row, column=error.column, expected=error.expected
+        ) from None
+    effect = rounding(points, result)
+    gaps = tuple(gap_to(name, stated, result, effect) for name, stated in points.references.items())
+    left = leave_one_out(points.captures) if len(result.residual_vectors) else ()
+    return Solved(points, result, effect, gaps, left, light(result))
+
+
+def _placed(error: DegenerateGeometryError, points: Points) -> DegenerateGeometryError:
+    """The error with the rows and columns it speaks of."""
+    touches: Sequence[Capture] = of_role(points.captures, "touch") or points.captures
+    rows = sorted({c.row for c in touches})
+    where = f"row {rows[0]}" if len(rows) == 1 else f"rows {rows[0]} to {rows[-1]}"
+    columns = "role" if error.code == "too_few" else ", ".join(points.written.names)
+    return type(error)(
+        f"{where}, column {columns}: {error.message}",
+        rank=error.rank,
+        needed=error.needed,
+        unseen=error.unseen,
+        advice=error.advice,
+        code=error.code,
+        file=points.path,
+    )
+
+
+def to_json(result: ToolCalibration) -> dict[str, Any]:
+    """The object teachframe.tool/1: millimetres, plain lists."""
+    matrix = np.array(result.T_flange_tool.matrix)
+    matrix[:3, 3] = mm(matrix[:3, 3])
+    return {
+        "format": "teachframe.tool/1",
+        "T_flange_tool": matrix.tolist(),
+        "tool_mm": mm(result.tool_point).tolist(),
+        "quaternion_wxyz": result.T_flange_tool.quaternion.tolist(),
+        "delta_mm": mm(result.delta),
+        "per_point_mm": mm(result.per_point).tolist(),
+        "mean_mm": mm(result.mean),
+        "max_mm": mm(result.max),
+        "rms_mm": mm(result.rms),
+        "sigma_tool_mm": mm(result.sigma_tool).tolist(),
+        "condition": result.condition,
+        "warnings": [{"code": w.code, "message": str(w)} for w in result.warnings],
+    }

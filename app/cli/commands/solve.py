@@ -1,0 +1,55 @@
+"""Tool frame from a points file, with its uncertainty."""
+
+from __future__ import annotations
+
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated, Literal
+
+import tyro
+
+
+@dataclass
+class Command:
+    """Tool frame from a points file, with its uncertainty.
+
+    Several files: one page a file; with --json one object a line, in order. A file that cannot be used is named on
+    stderr, the others still come out, and the exit code is 2.
+    """
+
+    files: Annotated[tuple[Path, ...], tyro.conf.Positional, tyro.conf.arg(metavar="FILE...")]
+    """Points files (# kind: points)."""
+    method: Literal["joint", "pairwise", "robust"] = "joint"
+    """joint: order-free. pairwise: the estimator of Xiong 2012. robust: far-off touches count less."""
+    orientation: Literal["default", "z", "zx", "xy"] | None = None
+    """How the axes are found; without it: the fullest that the roles in the file allow."""
+    mode: str | None = None
+    """Solve by a wizard mode instead (plane, spin, reference, abc_two_point, …)."""
+    json: bool = False
+    """The object teachframe.tool/1 instead of the page."""
+
+    def run(self) -> int:
+        import msgspec
+
+        from app.calibration.solving import solve_file, to_json
+        from app.calibration.text import page
+        from app.errors import InputError, TeachframeError
+
+        if not self.files:
+            raise InputError("no points file given", expected="teachframe solve FILE…")
+        code = 0
+        for number, path in enumerate(self.files):
+            try:
+                solved = solve_file(
+                    path, method=self.method, orientation=self.orientation, mode_key=self.mode
+                )
+            except TeachframeError as error:
+                print(f"teachframe solve: {error}", file=sys.stderr, flush=True)
+                code = 2
+                continue
+            if self.json:
+                print(msgspec.json.encode(to_json(solved.result)).decode(), flush=True)
+            else:
+                print(("\n" + "=" * 100 + "\n\n" if number else "") + page(solved), flush=True)
+        return code
