@@ -85,7 +85,9 @@ def _placed(error: DegenerateGeometryError, points: Points) -> DegenerateGeometr
     touches: Sequence[Capture] = of_role(points.captures, "touch") or points.captures
     rows = sorted({c.row for c in touches})
     where = f"row {rows[0]}" if len(rows) == 1 else f"rows {rows[0]} to {rows[-1]}"
-    columns = "role" if error.code == "too_few" else ", ".join(points.written.names)
+    names = points.written.names
+    turning = names[3:] if points.written.convention else names
+    columns = "role" if error.code == "too_few" else ", ".join(turning)
     return type(error)(
         f"{where}, column {columns}: {error.message}",
         rank=error.rank,

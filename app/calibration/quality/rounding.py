@@ -14,6 +14,10 @@ from app.calibration.points import Points, Written
 from app.calibration.result import ToolCalibration
 
 
+#: Touches spread wider than this are believed, however coarse the digits [rad].
+LARGEST_LEAST = 0.01
+
+
 @dataclass(frozen=True, eq=False)
 class Rounding:
     """Effect of rounding.
@@ -79,4 +83,4 @@ def least_turn(points: Points) -> float:
         shift[k] = step / 2.0
         change = written.poses(values + shift)[:, :3, :3] - written.poses(values - shift)[:, :3, :3]
         total += float(np.mean(np.sum(change**2, axis=(1, 2)))) / 3.0 / 12.0
-    return 2.0 * float(np.sqrt(total))
+    return min(2.0 * float(np.sqrt(total)), LARGEST_LEAST)

@@ -82,7 +82,7 @@ def refuse_one_axis(rotations: np.ndarray, least: float = NO_TURN) -> tuple[np.n
         else:
             message = "all touches turn about one axis"
             advice = "tilt the tool about another axis as well"
-        along = "(" + ", ".join(f"{v + 0.0:.2f}" for v in unseen) + ")"
+        along = "(" + ", ".join(f"{v:.2f}" for v in np.round(unseen, 2) + 0.0) + ")"
         raise DegenerateGeometryError(
             f"{message} ({along} in the flange): the tool point along it stays open",
             rank=rank,
