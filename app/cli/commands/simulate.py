@@ -1,0 +1,113 @@
+"""Makes a recording with known effects in it; the truth goes to OUT.truth.json only."""
+
+from __future__ import annotations
+
+import sys
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Annotated, Literal
+
+import tyro
+
+
+@dataclass
+class Command:
+    """Makes a recording with known effects in it; the truth goes to OUT.truth.json only.
+
+    Example: teachframe simulate --robot ur5e --kind tracker --effect joint_compliance:joint=2 out.csv
+    """
+
+    out: Annotated[Path, tyro.conf.Positional]
+    """The CSV to write."""
+
+    robot: str
+    """A robot's name (see `teachframe robots`) or the path of a URDF."""
+
+    kind: Literal["touch", "tracker"]
+    """What is recorded: touches of points or tracked points."""
+
+    effect: Annotated[list[str], tyro.conf.UseAppendAction, tyro.conf.arg(metavar="NAME[:joint=2,...]")] = (
+        field(default_factory=list)
+    )
+    """What is wrong, once an effect: NAME, or NAME:joint=2,size=0.1 (also source_joint=, driver=, link=, axis=,
+    from_row=, and each parameter by name). What is left open is drawn."""
+
+    seed: int = 0
+    """Same seed, same file."""
+
+    samples: int | None = None
+    """Rows; 60 unless said otherwise."""
+
+    noise_mm: float = 0.15
+    """One-sigma noise of each axis (touch, tracker)."""
+
+    noise_kind: Literal["gaussian", "coloured", "heavy"] = "gaussian"
+    """How the noise is distributed."""
+
+    outliers: float = 0.0
+    """Share of rows that went wrong."""
+
+    targets: int = 5
+    """Touched points (touch)."""
+
+    known_targets: bool = False
+    """Write the targets' coordinates into the file (touch)."""
+
+    reflectors: Literal[1, 2, 3] = 1
+    """Tracked points on the tool (tracker)."""
+
+    sessions: int = 1
+    """Set-ups, each with its own instrument frame and tool (tracker)."""
+
+    orientation: bool = False
+    """The tracker measures orientation too."""
+
+    wire: bool = False
+    """Only the length of a draw-wire is measured (tracker)."""
+
+    torque_sensors: bool = False
+    """Record joint torques too (tracker)."""
+
+    repeats: int = 0
+    """Rows that repeat the pose before them (tracker)."""
+
+    loads_kg: tuple[float, ...] = ()
+    """Declared loads, taken in turns."""
+
+    clutter_mm: float = 0.0
+    """One-sigma error of every length of the arm as built, with twists and zeros to match."""
+
+    def run(self) -> int:
+        from app.errors import InputError
+        from app.proof.generator.static.making import Plan
+        from app.units import from_mm
+
+        def say(text: str) -> None:
+            print(text, file=sys.stderr)
+
+        if self.noise_mm <= 0 or not 0 <= self.outliers <= 0.5 or self.sessions < 1 or self.targets < 1:
+            raise InputError(
+                "a noise, share or count that cannot be",
+                expected="--noise-mm above 0, --outliers 0 to 0.5, --sessions and --targets from 1",
+            )
+        from app.proof.generator.simulate import simulate_static
+
+        plan = Plan(
+            kind=self.kind,
+            samples=self.samples if self.samples is not None else 60,
+            noise=from_mm(self.noise_mm),
+            noise_kind=self.noise_kind,
+            outliers=self.outliers,
+            sessions=self.sessions if self.kind == "tracker" else 1,
+            reflectors=self.reflectors if self.kind == "tracker" else 1,
+            orientation=self.orientation and self.kind == "tracker",
+            wire=self.wire and self.kind == "tracker",
+            targets=self.targets,
+            known_targets=self.known_targets,
+            repeats=self.repeats if self.kind == "tracker" else 0,
+            loads_kg=self.loads_kg,
+            torque_sensors=self.torque_sensors and self.kind == "tracker",
+        )
+        clutter = from_mm(self.clutter_mm)
+        simulate_static(self.robot, plan, self.effect, self.seed, self.out, clutter=clutter, say=say)
+        return 0

@@ -1,0 +1,1 @@
+"""What a joint torque holds beyond rigid bodies: one file an effect, each with `EFFECT`."""

@@ -1,0 +1,1 @@
+"""Laws that no library holds."""

@@ -1,0 +1,1 @@
+"""Torques that follow no law of the library, on purpose."""

@@ -1,0 +1,1 @@
+"""Deviations of a tool point that follow no law of the library, on purpose."""

@@ -1,0 +1,31 @@
+"""The base was knocked: from one row on the arm stands elsewhere."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from app.proof.generator.effects.static._step import after, step_row
+from app.proof.generator.effects.term import Size, Term
+from app.proof.generator.rotations import random_direction
+
+
+@dataclass(frozen=True)
+class BaseShift:
+    key: str = "base_shift"
+    places: tuple[str, ...] = ("from_row",)
+    sizes: tuple[Size, ...] = (Size("dx", "m", "mm"), Size("dy", "m", "mm"), Size("dz", "m", "mm"))
+
+    def draw(self, rng, cell, asked):
+        row = step_row(rng, cell, asked, self.key)
+        step = 1e-3 * random_direction(rng)
+        values = {name: float(x) for name, x in zip(("dx", "dy", "dz"), step, strict=True)}
+        return Term(self.key, {"body": "base", "from_row": row}, values)
+
+    def add(self, cell, term, world):
+        step = np.array([term.parameters[k] for k in ("dx", "dy", "dz")])
+        world.base += after(cell, term.where["from_row"])[:, None] * step
+
+
+EFFECT = BaseShift()

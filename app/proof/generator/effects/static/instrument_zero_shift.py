@@ -1,0 +1,26 @@
+"""The instrument reads too long along its beam (or wire): its zero stands elsewhere."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from app.errors import InputError
+from app.proof.generator.effects.term import Size, Term
+
+
+@dataclass(frozen=True)
+class InstrumentZeroShift:
+    key: str = "instrument_zero_shift"
+    places: tuple[str, ...] = ()
+    sizes: tuple[Size, ...] = (Size("offset", "m", "mm"),)
+
+    def draw(self, rng, cell, asked):
+        if cell.kind != "tracker":
+            raise InputError("effect instrument_zero_shift: no instrument here", expected="--kind tracker")
+        return Term(self.key, {"body": "instrument"}, {"offset": float(rng.choice([-1e-3, 1e-3]))})
+
+    def add(self, cell, term, world):
+        world.reach += term.parameters["offset"]
+
+
+EFFECT = InstrumentZeroShift()

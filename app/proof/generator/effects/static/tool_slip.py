@@ -1,0 +1,31 @@
+"""The tool slipped on the flange: from one row on its points stand elsewhere in the flange's axes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from app.proof.generator.effects.static._step import after, step_row
+from app.proof.generator.effects.term import Size, Term
+from app.proof.generator.rotations import random_direction
+
+
+@dataclass(frozen=True)
+class ToolSlip:
+    key: str = "tool_slip"
+    places: tuple[str, ...] = ("from_row",)
+    sizes: tuple[Size, ...] = (Size("dx", "m", "mm"), Size("dy", "m", "mm"), Size("dz", "m", "mm"))
+
+    def draw(self, rng, cell, asked):
+        row = step_row(rng, cell, asked, self.key)
+        step = 1e-3 * random_direction(rng)
+        values = {name: float(x) for name, x in zip(("dx", "dy", "dz"), step, strict=True)}
+        return Term(self.key, {"body": "tool", "from_row": row}, values)
+
+    def add(self, cell, term, world):
+        step = np.array([term.parameters[k] for k in ("dx", "dy", "dz")])
+        world.tool += after(cell, term.where["from_row"])[:, None] * step
+
+
+EFFECT = ToolSlip()

@@ -1,0 +1,1 @@
+"""Joint logs over time."""

@@ -1,0 +1,75 @@
+"""Rotations, batched over leading dimensions."""
+
+from __future__ import annotations
+
+import numpy as np
+
+
+def turn(axis: np.ndarray, angle: np.ndarray | float) -> np.ndarray:
+    """Rotation by `angle` (...) [rad] about the unit vector `axis` (3,) or (..., 3) -> (..., 3, 3).
+
+    Written as cos I + (1 - cos) a a^T + sin [a]x.
+    """
+    a = np.asarray(axis, float)
+    angle = np.asarray(angle, float)
+    c, s = np.cos(angle)[..., None, None], np.sin(angle)[..., None, None]
+    return c * np.eye(3) + (1.0 - c) * a[..., :, None] * a[..., None, :] + s * cross_matrix(a)
+
+
+def cross_matrix(v: np.ndarray) -> np.ndarray:
+    """The matrix that multiplies like v x; (..., 3) -> (..., 3, 3)."""
+    v = np.asarray(v, float)
+    x, y, z = v[..., 0], v[..., 1], v[..., 2]
+    o = np.zeros_like(x)
+    return np.stack([np.stack([o, -z, y], -1), np.stack([z, o, -x], -1), np.stack([-y, x, o], -1)], -2)
+
+
+def turn_vector(v: np.ndarray) -> np.ndarray:
+    """Rotation of a rotation vector (..., 3) [rad] -> (..., 3, 3)."""
+    v = np.asarray(v, float)
+    angle = np.sqrt(np.sum(v * v, axis=-1))
+    axis = v / np.where(angle > 0, angle, 1.0)[..., None]
+    return turn(axis, angle)
+
+
+def from_rpy(roll: float, pitch: float, yaw: float) -> np.ndarray:
+    """URDF's fixed-axis roll, pitch, yaw [rad] -> (3, 3) = Rz(yaw) Ry(pitch) Rx(roll)."""
+    x, y, z = np.eye(3)
+    return turn(z, yaw) @ turn(y, pitch) @ turn(x, roll)
+
+
+def to_rpy(r: np.ndarray) -> tuple[float, float, float]:
+    """Roll, pitch, yaw [rad] of a rotation (3, 3); at the pole the roll is put to zero."""
+    flat = np.hypot(r[0, 0], r[1, 0])
+    pitch = float(np.arctan2(-r[2, 0], flat))
+    if flat > 1e-9:
+        return float(np.arctan2(r[2, 1], r[2, 2])), pitch, float(np.arctan2(r[1, 0], r[0, 0]))
+    return 0.0, pitch, float(np.arctan2(-r[0, 1], r[1, 1]))
+
+
+def to_quaternion(r: np.ndarray) -> np.ndarray:
+    """Quaternions wxyz with w >= 0 of rotations (m, 3, 3), through the eigenvector of Bar-Itzhack's matrix."""
+    r = np.asarray(r, float)
+    k = np.zeros((*r.shape[:-2], 4, 4))
+    trace = np.trace(r, axis1=-2, axis2=-1)
+    k[..., 0, 0] = trace
+    k[..., 1:, 1:] = r + np.swapaxes(r, -1, -2) - trace[..., None, None] * np.eye(3)
+    vector = np.stack(
+        [r[..., 2, 1] - r[..., 1, 2], r[..., 0, 2] - r[..., 2, 0], r[..., 1, 0] - r[..., 0, 1]], -1
+    )
+    k[..., 0, 1:] = k[..., 1:, 0] = vector
+    q = np.linalg.eigh(k)[1][..., -1]
+    return np.where(q[..., :1] < 0, -q, q)
+
+
+def random_rotation(rng: np.random.Generator) -> np.ndarray:
+    """A rotation drawn evenly over all of them, (3, 3)."""
+    q, upper = np.linalg.qr(rng.normal(size=(3, 3)))
+    q = q * np.sign(np.diag(upper))
+    return q if np.linalg.det(q) > 0 else -q
+
+
+def random_direction(rng: np.random.Generator) -> np.ndarray:
+    """A unit vector drawn evenly, (3,)."""
+    v = rng.normal(size=3)
+    return v / np.linalg.norm(v)

@@ -1,0 +1,189 @@
+"""What stands in the cell, what deviates in it, and where that puts the tool."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from app import catalog
+from app.proof.generator.arm import Arm, Stance, point_jacobian, stance
+from app.proof.generator.dynamics import holding_torques
+from app.proof.generator.effects.term import Term
+
+LAWS = "app.proof.generator.effects.static"
+OUTSIDE = "app.proof.generator.effects.outside.static"
+
+
+@dataclass(frozen=True, eq=False)
+class Cell:
+    """A recording before anything is wrong with it.
+
+    Args:
+        kind: touch or tracker.
+        arm: the arm as it stands there (its geometry and masses may differ from the description).
+        described: the arm as the description has it; directions of links are taken from here.
+        q: (m, n) what the controller shows [rad or m].
+        t: (m,) [s].
+        tools: (s, k, 3) [m] k points on the tool, in the flange, of each session.
+        views: (s, 4, 4) base in the instrument's frame, of each session.
+        session: (m,) which one each row belongs to.
+        load_kg: (m,) declared load.
+        load_at: (3,) [m] its centre in the flange.
+        target: (m,) index of the target each row touched; zeros for a tracker.
+        targets: (p, 3) [m] targets in the fixture's frame.
+        fixture: (4, 4) fixture in base.
+        targets_known: True where the file tells their coordinates.
+        compliance: (n,) declared [rad/Nm], or None.
+        torque_sensors: True where the file has joint torques.
+    """
+
+    kind: str
+    arm: Arm
+    described: Arm
+    q: np.ndarray
+    t: np.ndarray
+    tools: np.ndarray
+    views: np.ndarray
+    session: np.ndarray
+    load_kg: np.ndarray
+    load_at: np.ndarray
+    target: np.ndarray
+    targets: np.ndarray
+    fixture: np.ndarray
+    targets_known: bool = False
+    compliance: np.ndarray | None = None
+    torque_sensors: bool = False
+
+    @property
+    def m(self) -> int:
+        return len(self.q)
+
+    def at(self, q: np.ndarray) -> Cell:
+        """The same cell with other joint positions."""
+        return replace(self, q=q)
+
+    @cached_property
+    def holding(self) -> np.ndarray:
+        """(m, n) torque that holds the arm with its declared load, at the positions shown."""
+        return holding_torques(self.arm, self.q, load_kg=self.load_kg, load_at=self.load_at)
+
+    @cached_property
+    def last_move(self) -> np.ndarray:
+        """(m, n) sign of the last change of each joint from row to row; 0 before it first moved in a session."""
+        sign = np.zeros_like(self.q)
+        for i in range(1, self.m):
+            if self.session[i] != self.session[i - 1]:
+                continue
+            step = np.sign(self.q[i] - self.q[i - 1])
+            sign[i] = np.where(step == 0, sign[i - 1], step)
+        return sign
+
+
+@dataclass(eq=False)
+class World:
+    """Everything the effects add, row by row.
+
+    Args:
+        dq: (m, n) joints are really here minus what is shown.
+        shifts, turns: (m, n+1, 3) of the joints' placements, axes of the link before [m, rad].
+        base: (m, 3) displacement of the arm in base axes [m].
+        tool: (m, 3) displacement of the tool points in the flange [m].
+        scale: factor on what the instrument measures.
+        reach: what the instrument reads too long along its beam [m].
+        depth: how far the tip sinks in, along the flange's Z [m].
+        flipped: (n,) -1 where the joint is shown with the wrong sign.
+        torque: (m, n) torque on top of the described load [Nm].
+    """
+
+    dq: np.ndarray
+    shifts: np.ndarray
+    turns: np.ndarray
+    base: np.ndarray
+    tool: np.ndarray
+    flipped: np.ndarray
+    torque: np.ndarray
+    scale: float = 1.0
+    reach: float = 0.0
+    depth: float = 0.0
+
+
+def world_with(cell: Cell, terms: Sequence[Term]) -> World:
+    """The world of a cell with these terms in it."""
+    m, n = cell.q.shape
+    world = World(
+        np.zeros((m, n)),
+        np.zeros((m, n + 1, 3)),
+        np.zeros((m, n + 1, 3)),
+        np.zeros((m, 3)),
+        np.zeros((m, 3)),
+        np.ones(n),
+        np.zeros((m, n)),
+    )
+    for term in terms:
+        law_of(term.effect).add(cell, term, world)
+    return world
+
+
+def law_of(key: str):
+    """A law of the library or from outside it, by key."""
+    outside = catalog.members(OUTSIDE, "EFFECT")
+    return outside[key] if key in outside else catalog.member(LAWS, "EFFECT", key, what="effect")
+
+
+def true_stance(cell: Cell, world: World) -> Stance:
+    """Where the arm really is."""
+    return stance(cell.arm, world.flipped * cell.q + world.dq, world.shifts, world.turns)
+
+
+def tips(cell: Cell, world: World, where: Stance | None = None) -> np.ndarray:
+    """(m, k, 3) tool points in the frame the base had at first [m]."""
+    where = where or true_stance(cell, world)
+    points = cell.tools[cell.session] + world.tool[:, None, :]
+    turned = np.einsum("mij,mkj->mki", where.flange_rotations, points)
+    return where.flange_places[:, None, :] + world.base[:, None, :] + turned
+
+
+def contact(cell: Cell, world: World) -> tuple[np.ndarray, np.ndarray]:
+    """Where the tip first met the target (m, 3) [m], and how it moves with the joints (m, 3, n)."""
+    where = true_stance(cell, world)
+    tip = tips(cell, world, where)[:, 0]
+    jacobian = point_jacobian(cell.arm, where, tip - world.base) * world.flipped
+    return tip - world.depth * where.flange_rotations[:, :, 2], jacobian
+
+
+def goals(cell: Cell, world: World) -> np.ndarray:
+    """(m, 3) where each row's target is, in base [m]; known coordinates carry the instrument's scale."""
+    points = cell.targets[cell.target] / world.scale
+    return points @ cell.fixture[:3, :3].T + cell.fixture[:3, 3]
+
+
+def seen(cell: Cell, world: World) -> np.ndarray:
+    """(m, k, 3) what the instrument reads, without noise [m]."""
+    view = cell.views[cell.session]
+    points = np.einsum("mij,mkj->mki", view[:, :3, :3], tips(cell, world)) + view[:, None, :3, 3]
+    distance = np.linalg.norm(points, axis=-1, keepdims=True)
+    return points * world.scale + world.reach * points / np.where(distance > 0, distance, 1.0)
+
+
+def effect_on_points(cell: Cell, terms: Sequence[Term], term: Term) -> np.ndarray:
+    """(m, k, 3) what one term does to the measured points beside the others, at the same joint positions [m]."""
+    others = [t for t in terms if t is not term]
+    if cell.kind == "tracker":
+        return seen(cell, world_with(cell, [*others, term])) - seen(cell, world_with(cell, others))
+    with_it, without = world_with(cell, [*others, term]), world_with(cell, others)
+    gap = contact(cell, with_it)[0] - goals(cell, with_it)
+    return (gap - contact(cell, without)[0] + goals(cell, without))[:, None, :]
+
+
+def scaled_to(cell: Cell, terms: Sequence[Term], term: Term, rms: float) -> Term:
+    """The term made as strong that it moves the tool point by `rms` [m] (root mean square of |p|)."""
+    for _ in range(3):
+        moved = effect_on_points(cell, [*terms, term], term)[:, 0]
+        size = float(np.sqrt(np.mean(np.sum(moved**2, axis=1))))
+        if size <= 1e-12:
+            break
+        term = term.times(rms / size)
+    return term

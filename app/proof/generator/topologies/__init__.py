@@ -1,0 +1,1 @@
+"""Families of arms: one file a family, each with a `TOPOLOGY` that draws a member."""
