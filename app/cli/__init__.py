@@ -8,11 +8,15 @@ Results go to stdout, progress to stderr. Heavy imports stand inside `run`, so t
 from __future__ import annotations
 
 import ast
+import contextlib
 import importlib
+import inspect
+import io
 import os
 import sys
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import tyro
 
@@ -36,12 +40,7 @@ def run(argv: Sequence[str]) -> int:
         return 2
     try:
         module = importlib.import_module(f"{COMMANDS}.{argv[0]}")
-        command = tyro.cli(
-            module.Command,
-            args=list(argv[1:]),
-            prog=f"teachframe {argv[0]}",
-            description=module.Command.__doc__,
-        )
+        command = _parsed(module.Command, f"teachframe {argv[0]}", argv[1:])
         return int(command.run() or 0)
     except SystemExit as stop:  # tyro's own: --help, or arguments that do not fit
         return stop.code if isinstance(stop.code, int) else 2
@@ -62,6 +61,23 @@ def run(argv: Sequence[str]) -> int:
             file=sys.stderr,
         )
         return 1
+
+
+def _parsed(command: type, prog: str, argv: Sequence[str]) -> Any:
+    """The command with its arguments. Arguments that do not fit give one line, not tyro's framed page."""
+    said = io.StringIO()
+    try:
+        with contextlib.redirect_stderr(said):
+            return tyro.cli(
+                command, args=list(argv), prog=prog, description=inspect.cleandoc(command.__doc__ or "")
+            )
+    except SystemExit as stop:
+        if stop.code not in (0, None):
+            frame = str.maketrans("", "", "╭╮╰╯│─")
+            lines = [line.translate(frame).strip() for line in said.getvalue().splitlines()]
+            what = next((line for line in lines[1:] if line), "the arguments do not fit")
+            print(one_line(f"{prog}: {what}; `{prog} --help` shows what there is"), file=sys.stderr)
+        raise
 
 
 def _overview(names: list[str]) -> str:

@@ -11,7 +11,8 @@ from typing import Any
 
 import msgspec
 
-from app.errors import FileFormatError
+from app.diagnosis.result import Diagnosis
+from app.errors import FileFormatError, InputError
 
 FORMAT = "teachframe.model/1"
 
@@ -45,6 +46,19 @@ class SavedModel(msgspec.Struct, frozen=True):
 
     def to_dict(self) -> Mapping[str, Any]:
         return msgspec.to_builtins(self)
+
+
+def model_of(diagnosis: Diagnosis) -> SavedModel:
+    """The findings of a diagnosis as a model.
+
+    Raises:
+        InputError: the diagnosis carries none.
+    """
+    if not diagnosis.model:
+        raise InputError(
+            "nothing was found that could be saved as a model", file=diagnosis.file, expected="a finding"
+        )
+    return msgspec.convert(dict(diagnosis.model), SavedModel)
 
 
 def save_model(model: SavedModel, path: str | Path) -> None:

@@ -1,0 +1,169 @@
+"""Finds where a recording and the robot's description differ, says what was left out, and models it."""
+
+from __future__ import annotations
+
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import tyro
+
+from app.errors import InputError
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from app.diagnosis.batch import Outcome
+    from app.diagnosis.model import SavedModel
+
+
+@dataclass
+class Command:
+    """Finds where a recording and the robot's description differ, says what was left out, and models it.
+
+    Reads recordings of kind touch, tracker and motion. Several files are worked on side by side; one that
+    cannot be read gives its line on stderr and the others still come out.
+    """
+
+    files: Annotated[tuple[Path, ...], tyro.conf.Positional, tyro.conf.arg(metavar="FILE...")]
+    """Recordings."""
+
+    robot: Annotated[str | None, tyro.conf.arg(metavar="NAME|FILE.urdf")] = None
+    """The robot's description; without it the one the file's header names."""
+
+    reference: Annotated[Path | None, tyro.conf.arg(metavar="FILE")] = None
+    """A motion recording of the same arm in a known good state: what changed since?"""
+
+    json: Annotated[bool, tyro.conf.FlagCreatePairsOff] = False
+    """One JSON object a file, one a line, in the order of the files."""
+
+    report: Annotated[Path | None, tyro.conf.arg(metavar="OUT.html")] = None
+    """Write a page with pictures: one file, nothing loaded from outside, ready to print."""
+
+    save_model: Annotated[Path | None, tyro.conf.arg(metavar="OUT.json")] = None
+    """Write what was found as a model that the simulation, the pendant and --model load."""
+
+    model: Annotated[Path | None, tyro.conf.arg(metavar="IN.json")] = None
+    """Take a saved model as part of the robot: what is left beyond it?"""
+
+    save_urdf: Annotated[Path | None, tyro.conf.arg(metavar="OUT.urdf")] = None
+    """Write the robot's description with those findings in it that a URDF can hold."""
+
+    seed: Annotated[int, tyro.conf.arg(metavar="N")] = 0
+    """Seed of the null distribution; the same seed gives the same answer."""
+
+    def run(self) -> int:
+        from app.cli.progress import shown_progress
+        from app.diagnosis.model import load_model
+
+        self._check()
+        model = load_model(self.model) if self.model else None
+        code, kept = 0, []
+        with shown_progress(len(self.files)) as progress:
+            for outcome in self._outcomes(model, progress):
+                if outcome.diagnosis is None:
+                    progress.line(f"teachframe diagnose: {outcome.error}")
+                    code = 1 if outcome.fault or code == 1 else 2
+                    continue
+                progress.pause()
+                self._print(outcome, first=not kept)
+                kept.append(outcome.diagnosis)
+        if kept:
+            self._write(kept)
+        return code
+
+    def _check(self) -> None:
+        if not self.files:
+            raise InputError("no file given", expected="teachframe diagnose FILE...")
+        if len(self.files) > 1:
+            for option, value in (("--save-model", self.save_model), ("--save-urdf", self.save_urdf)):
+                if value is not None:
+                    raise InputError(f"{option} with {len(self.files)} recordings", expected="one recording")
+        for out in (self.report, self.save_model, self.save_urdf):
+            if out is not None and not out.parent.is_dir():
+                raise InputError("there is no such folder", file=out.parent, expected="a folder to write to")
+
+    def _outcomes(self, model: SavedModel | None, progress) -> Iterator[Outcome]:
+        """One file in this process, with its progress; several in their own, side by side."""
+        from app.diagnosis.batch import Outcome, diagnose_many
+        from app.diagnosis.dispatch import diagnose_file
+
+        if len(self.files) == 1:
+            found = diagnose_file(
+                self.files[0],
+                robot=self.robot,
+                reference=self.reference,
+                model=model,
+                progress=progress.update,
+                seed=self.seed,
+            )
+            yield Outcome(str(self.files[0]), found)
+            return
+        outcomes = diagnose_many(
+            self.files,
+            robot=self.robot,
+            reference=self.reference,
+            model=model,
+            evidence=self.report is not None,
+            seed=self.seed,
+        )
+        for done, outcome in enumerate(outcomes, 1):
+            yield outcome
+            progress.update(done / len(self.files), f"{done} of {len(self.files)} recordings")
+
+    def _print(self, outcome: Outcome, *, first: bool) -> None:
+        diagnosis = outcome.diagnosis
+        assert diagnosis is not None
+        if self.json:
+            import msgspec
+
+            sys.stdout.write(msgspec.json.encode(diagnosis.to_json()).decode() + "\n")
+        else:
+            from app.diagnosis.report import as_text
+
+            slides = self._slides(outcome.file) if diagnosis.next_poses else ()
+            sys.stdout.write(
+                ("" if first else "\n" + "─" * 100 + "\n\n") + as_text(diagnosis, prismatic=slides)
+            )
+        sys.stdout.flush()
+
+    def _slides(self, file: str) -> tuple[bool, ...]:
+        """Which joints slide, for the unit of a proposed pose."""
+        return tuple(joint.prismatic for joint in self._robot(file).joints)
+
+    def _robot(self, file: str):
+        from app.diagnosis.dispatch import robot_for
+        from app.recordings import read_table
+
+        return robot_for(read_table(file), self.robot)
+
+    def _write(self, kept: list) -> None:
+        """The files asked for, each named on stderr."""
+        if self.report is not None:
+            from app.diagnosis.report import write_report
+
+            robots = [self._robot(d.file) for d in kept]
+            write_report(self.report, kept, robots, command=_command_line(), seed=self.seed)
+            print(f"report: {self.report}", file=sys.stderr)
+        if self.save_model is None and self.save_urdf is None:
+            return
+        from app.diagnosis.model import model_of, save_model
+
+        model = model_of(kept[0])
+        if self.save_model is not None:
+            save_model(model, self.save_model)
+            print(f"model: {self.save_model}", file=sys.stderr)
+        if self.save_urdf is not None:
+            from app.diagnosis.corrected import save_corrected_urdf
+
+            for line in save_corrected_urdf(self._robot(kept[0].file), model, self.save_urdf):
+                print(line, file=sys.stderr)
+            print(f"description: {self.save_urdf}", file=sys.stderr)
+
+
+def _command_line() -> str:
+    """The command as it was typed, for the page's last line."""
+    import shlex
+
+    return "teachframe " + shlex.join(sys.argv[1:])

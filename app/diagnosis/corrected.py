@@ -1,0 +1,193 @@
+"""A corrected robot description: those findings that a URDF has words for, written into it."""
+
+from __future__ import annotations
+
+import xml.etree.ElementTree as ET
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+
+from app.diagnosis.model import ModelEffect, SavedModel
+from app.errors import InputError
+from app.geometry import convention, exp_so3
+from app.kinematics import RobotModel
+
+
+def save_corrected_urdf(robot: RobotModel, model: SavedModel, path: str | Path) -> tuple[str, ...]:
+    """Writes the description with the model's effects in it.
+
+    Zeros, lengths and twists become placements of joints, a payload becomes mass of the flange's link, friction
+    becomes the joint's `<dynamics>`. What moves with load, time or direction has no word in a URDF.
+
+    Returns:
+        One line for each effect that was left out.
+
+    Raises:
+        InputError: nothing of the model can be written, or the file cannot.
+    """
+    tree = ET.parse(robot.path)
+    root = tree.getroot()
+    left_out = [e for e in model.effects if not _written(root, robot, e)]
+    if len(left_out) == len(model.effects):
+        raise InputError(
+            "none of what was found has a word in a URDF: " + ", ".join(e.effect for e in left_out),
+            expected="--save-model, which holds every effect",
+        )
+    try:
+        tree.write(path, encoding="utf-8", xml_declaration=True)
+    except OSError as error:
+        raise InputError(f"cannot be written ({error.strerror})", file=path) from None
+    return tuple(f"not in the description, a URDF has no word for it: {e.effect}" for e in left_out)
+
+
+def _written(root: ET.Element, robot: RobotModel, effect: ModelEffect) -> bool:
+    write = _WRITERS.get(effect.effect)
+    return write is not None and write(root, robot, effect)
+
+
+def _joint_zero(root: ET.Element, robot: RobotModel, effect: ModelEffect) -> bool:
+    k, amount = int(effect.where["joint"]) - 1, _only(effect)
+    axis = robot.chain.axes[k] * amount
+    if robot.joints[k].prismatic:
+        return _place(root, robot, k, shift=axis)
+    return _place(root, robot, k, turn=axis)
+
+
+def _link_length(root: ET.Element, robot: RobotModel, effect: ModelEffect) -> bool:
+    vector = _link_vector(robot, effect)
+    return vector is not None and _place(root, robot, int(effect.where["link"]), shift=vector)
+
+
+def _link_twist(root: ET.Element, robot: RobotModel, effect: ModelEffect) -> bool:
+    vector = _link_vector(robot, effect)
+    return vector is not None and _place(root, robot, int(effect.where["link"]), turn=vector)
+
+
+def _link_vector(robot: RobotModel, effect: ModelEffect) -> np.ndarray | None:
+    """Displacement of the placement behind the link, in that placement's frame."""
+    from app.diagnosis.static.geometry import AXES, link_axes
+
+    axis = effect.where.get("axis")
+    if axis not in AXES:
+        return None
+    return link_axes(robot.chain).vectors[int(effect.where["link"]) - 1, AXES.index(axis)] * _only(effect)
+
+
+def _place(
+    root: ET.Element,
+    robot: RobotModel,
+    index: int,
+    *,
+    shift: np.ndarray | None = None,
+    turn: np.ndarray | None = None,
+) -> bool:
+    """origin -> origin @ Trans(shift) @ Rot(turn), of joint `index` (from 0; one past the last: the flange)."""
+    joint = _joint_element(root, robot, index)
+    if joint is None:
+        return False
+    origin = joint.find("origin")
+    if origin is None:
+        origin = ET.SubElement(joint, "origin")
+    angles = convention("ZYX")  # rpy backwards: Rz(yaw) Ry(pitch) Rx(roll)
+    position = _triple(origin.get("xyz"))
+    rotation = angles.to_rotation(_triple(origin.get("rpy"))[::-1])
+    if shift is not None:
+        position = position + rotation @ shift
+    if turn is not None:
+        rotation = rotation @ exp_so3(turn)
+    origin.set("xyz", _said(position))
+    origin.set("rpy", _said(angles.from_rotation(rotation)[::-1]))
+    return True
+
+
+def _joint_element(root: ET.Element, robot: RobotModel, index: int) -> ET.Element | None:
+    """The moving joint's element; past the last the one that carries the flange, if it is fixed."""
+    for joint in root.findall("joint"):
+        if index < robot.joint_count:
+            if joint.get("name") == robot.joints[index].name:
+                return joint
+            continue
+        child = joint.find("child")
+        if child is not None and child.get("link") == robot.flange and joint.get("type") == "fixed":
+            return joint
+    return None
+
+
+def _payload(root: ET.Element, robot: RobotModel, effect: ModelEffect) -> bool:
+    """A point mass added to the flange's link, by the parallel-axis theorem."""
+    p = effect.parameters
+    mass, at = p["mass"], np.array([p.get(f"com_{c}", 0.0) for c in "xyz"])
+    link = next((e for e in root.findall("link") if e.get("name") == robot.flange), None)
+    if link is None or mass <= 0:
+        return False
+    inertial = link.find("inertial")
+    if inertial is None:
+        inertial = ET.SubElement(link, "inertial")
+    parts = {name: _child(inertial, name) for name in ("origin", "mass", "inertia")}
+    if np.any(_triple(parts["origin"].get("rpy"))):
+        return False
+    old_mass = float(parts["mass"].get("value", "0"))
+    old_at = _triple(parts["origin"].get("xyz"))
+    total = old_mass + mass
+    centre = (old_mass * old_at + mass * at) / total
+    inertia = _inertia(parts["inertia"]) + _point(old_mass, old_at - centre) + _point(mass, at - centre)
+    parts["mass"].set("value", f"{total:.12g}")
+    parts["origin"].set("xyz", _said(centre))
+    for i, a in enumerate("xyz"):
+        for j in range(i, 3):
+            parts["inertia"].set(f"i{a}{'xyz'[j]}", f"{inertia[i, j]:.12g}")
+    return True
+
+
+def _dynamics(key: str) -> Callable[[ET.Element, RobotModel, ModelEffect], bool]:
+    def write(root: ET.Element, robot: RobotModel, effect: ModelEffect) -> bool:
+        joint = _joint_element(root, robot, int(effect.where["joint"]) - 1)
+        if joint is None:
+            return False
+        element = _child(joint, "dynamics")
+        element.set(key, f"{float(element.get(key, '0')) + _only(effect):.12g}")
+        return True
+
+    return write
+
+
+_WRITERS: dict[str, Callable[[ET.Element, RobotModel, ModelEffect], bool]] = {
+    "joint_zero": _joint_zero,
+    "link_length": _link_length,
+    "link_twist": _link_twist,
+    "payload": _payload,
+    "viscous_friction": _dynamics("damping"),
+    "coulomb_friction": _dynamics("friction"),
+}
+
+
+def _only(effect: ModelEffect) -> float:
+    """The effect's one value, SI."""
+    return float(next(iter(effect.parameters.values())))
+
+
+def _child(parent: ET.Element, name: str) -> ET.Element:
+    found = parent.find(name)
+    return ET.SubElement(parent, name) if found is None else found
+
+
+def _triple(text: str | None) -> np.ndarray:
+    return np.array([float(v) for v in (text or "0 0 0").split()])
+
+
+def _said(values: np.ndarray) -> str:
+    return " ".join(f"{v:.12g}" for v in values)
+
+
+def _inertia(element: ET.Element) -> np.ndarray:
+    upper = np.zeros((3, 3))
+    for i, a in enumerate("xyz"):
+        for j in range(i, 3):
+            upper[i, j] = upper[j, i] = float(element.get(f"i{a}{'xyz'[j]}", "0"))
+    return upper
+
+
+def _point(mass: float, at: np.ndarray) -> np.ndarray:
+    """Inertia of a point mass about the origin."""
+    return mass * (at @ at * np.eye(3) - np.outer(at, at))

@@ -1,0 +1,15 @@
+"""What a diagnosis says, for a person.
+
+wording.py   names, places and numbers as one writes them
+curves.py    residual against what it may follow, as numbers
+text.py      the terminal's version
+page.py      the page: one HTML file without anything from outside, made to be printed
+style.py     its look
+parts/       one file a section of the page
+drawing/     one file a kind of picture, plain SVG
+"""
+
+from app.diagnosis.report.page import as_page, write_report
+from app.diagnosis.report.text import as_text
+
+__all__ = ["as_page", "as_text", "write_report"]

@@ -1,0 +1,227 @@
+"""Residual against what it may follow: the numbers behind the plots of the page and of the pendant.
+
+A residual is a vector; a plot needs one number. Along the driver of a joint it is what that joint would have to
+be off by to give this residual; elsewhere the direction in which the residual follows the driver most.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+
+import numpy as np
+
+from app.diagnosis.result import Diagnosis, Evidence
+from app.kinematics import RobotModel
+from app.units import deg, mm
+
+BINS = 14
+_LEAST_IN_BIN = 3
+#: A joint's lever shorter than this share of its longest says nothing about the joint's angle.
+_SHORT_LEVER = 0.15
+
+
+@dataclass(frozen=True, eq=False)
+class Curve:
+    """One plot.
+
+    Args:
+        driver: what stands on the x axis, with its unit.
+        response: what stands on the y axis, with its unit.
+        x: (k,) driver.
+        before: (k,) residual without the findings.
+        after: (k,) with them.
+        centres: (b,) middle of each bin of the driver.
+        mean_before: (b,) mean residual in the bin.
+        mean_after: (b,) likewise.
+        share: how much of the residual's variance before the binned mean explains, 0..1.
+        found: True where a finding names this driver.
+    """
+
+    driver: str
+    response: str
+    x: np.ndarray
+    before: np.ndarray
+    after: np.ndarray
+    centres: np.ndarray
+    mean_before: np.ndarray
+    mean_after: np.ndarray
+    share: float
+    found: bool
+
+
+def driver_curves(diagnosis: Diagnosis, robot: RobotModel | None, most: int = 6) -> tuple[Curve, ...]:
+    """Curves worth looking at: those of the findings first, then what explains most before.
+
+    Args:
+        robot: gives the joints' levers; without it residuals are shown along their main direction.
+        most: how many at most.
+    """
+    evidence = diagnosis.evidence
+    if evidence is None or not len(evidence.q):
+        return ()
+    named = {name for f in diagnosis.findings for name in _wanted(f.where)}
+    curves = []
+    for label, values in _drivers(evidence, diagnosis, robot).items():
+        curve = _curve(label, np.asarray(values, float), evidence, robot, _key(label) in named)
+        if curve is not None:
+            curves.append(curve)
+    # What explains no more than chance would in so many bins is not worth a picture; two are shown anyway.
+    telling = [c for c in curves if c.found or c.share > 2.0 * len(c.centres) / len(c.x)]
+    curves = telling if len(telling) >= 2 else sorted(curves, key=lambda c: (not c.found, -c.share))[:2]
+    curves.sort(key=lambda c: (not c.found, -c.share))
+    return tuple(curves[:most])
+
+
+def _wanted(where) -> list[tuple[str, int | None]]:
+    driver, joint = where.get("driver"), where.get("joint")
+    if driver is None:
+        return [("time", None)] if "from_row" in where or "from_s" in where else []
+    source = where.get("source_joint", joint)
+    whose = None if driver in ("time", "temperature") else source
+    return [(str(driver), None if whose is None else int(whose))]
+
+
+def _key(label: str) -> tuple[str, int | None]:
+    """ "gravity torque of joint 2 [Nm]" -> ("gravity_torque", 2)."""
+    text = label.lower()
+    number = re.search(r"joint (\d+)", text)
+    joint = int(number.group(1)) if number else None
+    for word, driver in (
+        ("gravity", "gravity_torque"),
+        ("temperature", "temperature"),
+        ("accel", "acceleration"),
+        ("approach", "approach"),
+        ("speed", "speed"),
+        ("velocity", "speed"),
+        ("time", "time"),
+        ("angle", "own_angle"),
+        ("position", "own_angle"),
+    ):
+        if word in text:
+            return driver, None if driver in ("time",) else joint
+    return text, joint
+
+
+def _drivers(evidence: Evidence, diagnosis: Diagnosis, robot: RobotModel | None) -> dict[str, np.ndarray]:
+    """What the engine gave, and what the findings name and can be had from the joint positions."""
+    drivers = {str(k): np.asarray(v, float) for k, v in evidence.drivers.items()}
+    present = {_key(label) for label in drivers}
+    for finding in diagnosis.findings:
+        for driver, joint in _wanted(finding.where):
+            if (driver, joint) in present or (joint is not None and joint > evidence.q.shape[1]):
+                continue
+            if driver == "own_angle" and joint is not None:
+                slides = robot is not None and robot.joints[joint - 1].prismatic
+                name = f"position of joint {joint} [mm]" if slides else f"angle of joint {joint} [deg]"
+                q = evidence.q[:, joint - 1]
+                drivers[name] = mm(q) if slides else deg(q)
+            elif (
+                driver == "gravity_torque" and joint is not None and robot is not None and robot.has_inertials
+            ):
+                drivers[f"gravity torque of joint {joint} [Nm]"] = robot.gravity_torques(evidence.q)[
+                    :, joint - 1
+                ]
+            elif driver == "time" and evidence.t is not None:
+                drivers["time [s]"] = evidence.t - evidence.t[0]
+            elif driver == "time":
+                drivers["row"] = evidence.rows.astype(float)
+    return drivers
+
+
+def _curve(
+    label: str, x: np.ndarray, evidence: Evidence, robot: RobotModel | None, found: bool
+) -> Curve | None:
+    good = evidence.kept & np.isfinite(x)
+    joint = _key(label)[1]
+    if good.sum() < 8 or np.ptp(x[good]) == 0:
+        return None
+    response, before, after, weight = _response(joint, x, good, evidence, robot)
+    good &= np.isfinite(before) & np.isfinite(after) & (weight > 0)
+    if good.sum() < 8:
+        return None
+    x, before, after, weight = x[good], before[good], after[good], weight[good]
+    centres, mean_before, share = binned(x, before, weight)
+    _, mean_after, _ = binned(x, after, weight)
+    return Curve(label, response, x, before, after, centres, mean_before, mean_after, share, found)
+
+
+def _response(
+    joint: int | None, x: np.ndarray, good: np.ndarray, evidence: Evidence, robot: RobotModel | None
+) -> tuple[str, np.ndarray, np.ndarray, np.ndarray]:
+    """What to plot: label, before, after, weight of each sample."""
+    ones = np.ones(len(x))
+    if evidence.unit == "Nm":
+        if joint is None or joint > evidence.before.shape[1]:
+            shares = [binned(x[good], column[good], ones[good])[2] for column in evidence.before.T]
+            joint = int(np.argmax(shares)) + 1
+        k = joint - 1
+        return (
+            f"torque error of {evidence.components[k]} [Nm]",
+            evidence.before[:, k],
+            evidence.after[:, k],
+            ones,
+        )
+    if joint is not None and robot is not None and joint <= robot.joint_count and _has_points(evidence):
+        return _as_joint_error(joint, evidence, robot)
+    direction = _main_direction(x[good], evidence.before[good])
+    before, after = evidence.before @ direction, evidence.after @ direction
+    return "error along its main direction [mm]", mm(before), mm(after), ones
+
+
+def _has_points(evidence: Evidence) -> bool:
+    return evidence.points_measured is not None and evidence.points_predicted_before is not None
+
+
+def _as_joint_error(
+    joint: int, evidence: Evidence, robot: RobotModel
+) -> tuple[str, np.ndarray, np.ndarray, np.ndarray]:
+    """What this joint would have to be off by: J.r / J.J, exact for a fault of the joint itself."""
+    measured, predicted = evidence.points_measured, evidence.points_predicted_before
+    assert measured is not None and predicted is not None
+    after = evidence.points_predicted_after
+    chain = robot.chain
+    lever = chain.jacobian_columns(chain.frames(evidence.q), predicted)[:, :, joint - 1]  # (m, 3)
+    square = np.einsum("mi,mi->m", lever, lever)
+    weight = np.where(square > (_SHORT_LEVER**2) * square.max(initial=0.0), square, 0.0)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        before = np.einsum("mi,mi->m", measured - predicted, lever) / square
+        rest = measured - (predicted if after is None else after)
+        left = np.einsum("mi,mi->m", rest, lever) / square
+    if robot.joints[joint - 1].prismatic:
+        return f"joint {joint} off by [mm]", mm(before), mm(left), weight
+    return f"joint {joint} off by [deg]", deg(before), deg(left), weight
+
+
+def _main_direction(x: np.ndarray, residual: np.ndarray) -> np.ndarray:
+    """(k,) unit: along it the binned mean of the residual varies most."""
+    clean = np.nan_to_num(residual)
+    edges = _edges(x)
+    which = np.clip(np.searchsorted(edges, x, side="right") - 1, 0, len(edges) - 2)
+    means = np.zeros((len(edges) - 1, clean.shape[1]))
+    for b in np.unique(which):
+        inside = which == b
+        means[b] = clean[inside].mean(0) * np.sqrt(inside.sum())
+    return np.linalg.svd(means, full_matrices=False)[2][0]
+
+
+def _edges(x: np.ndarray, bins: int = BINS) -> np.ndarray:
+    """Bins with about as many samples each."""
+    count = max(min(bins, len(x) // _LEAST_IN_BIN), 1)
+    edges = np.unique(np.quantile(x, np.linspace(0, 1, count + 1)))
+    return edges if len(edges) > 1 else np.array([edges[0], edges[0] + 1.0])
+
+
+def binned(x: np.ndarray, y: np.ndarray, weight: np.ndarray) -> tuple[np.ndarray, np.ndarray, float]:
+    """Weighted mean of y in bins of x: centres (b,), means (b,), share of y's mean square explained."""
+    edges = _edges(x)
+    which = np.clip(np.searchsorted(edges, x, side="right") - 1, 0, len(edges) - 2)
+    mass = np.bincount(which, weight, len(edges) - 1)
+    filled = mass > 0
+    with np.errstate(invalid="ignore", divide="ignore"):
+        means = np.bincount(which, weight * y, len(edges) - 1) / mass
+        centres = np.bincount(which, weight * x, len(edges) - 1) / mass
+    overall = float(np.average(y, weights=weight))
+    total = float(np.sum(weight * (y - overall) ** 2))
+    told = float(np.sum(mass[filled] * (means[filled] - overall) ** 2))
+    return centres[filled], means[filled], told / total if total > 0 else 0.0

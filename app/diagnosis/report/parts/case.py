@@ -1,0 +1,57 @@
+"""What every section is drawn from."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from html import escape
+
+from app.diagnosis.result import Diagnosis
+from app.kinematics import RobotModel
+
+
+@dataclass(frozen=True)
+class Case:
+    """One diagnosis and the robot it is about; without the robot some pictures are plainer."""
+
+    diagnosis: Diagnosis
+    robot: RobotModel | None = None
+
+    @property
+    def prismatic(self) -> tuple[bool, ...]:
+        return tuple(joint.prismatic for joint in self.robot.joints) if self.robot else ()
+
+
+def section(title: str, *content: str) -> str:
+    """A heading with what belongs to it; nothing where there is nothing."""
+    inside = "".join(content)
+    return f"<section><h2>{escape(title)}</h2>{inside}</section>" if inside else ""
+
+
+def figure(picture: str, caption: str = "") -> str:
+    return f"<figure>{picture}{f'<figcaption>{escape(caption)}</figcaption>' if caption else ''}</figure>"
+
+
+def table(
+    heads: Sequence[str], rows: Sequence[Sequence[str]], *, numbers: Sequence[int] = (), fit: bool = False
+) -> str:
+    """A table of plain texts; `numbers` are the columns that line up on the right; `fit` is no wider than needed."""
+
+    def cells(name: str, row: Sequence[str]) -> str:
+        right = [' class="n"' if i in numbers else "" for i in range(len(row))]
+        return "".join(f"<{name}{r}>{escape(cell)}</{name}>" for r, cell in zip(right, row, strict=True))
+
+    body = "".join(f"<tr>{cells('td', row)}</tr>" for row in rows)
+    look = ' class="fit"' if fit else ""
+    return f"<table{look}><thead><tr>{cells('th', heads)}</tr></thead><tbody>{body}</tbody></table>"
+
+
+BEFORE_AFTER = (
+    '<span><i class="b"></i>description alone</span><span><i class="a"></i>with what was found</span>'
+)
+ALONE = '<span><i class="b"></i>description alone</span>'
+
+
+def key(*more: str, found: bool = True) -> str:
+    """What the colours mean."""
+    return f'<div class="key">{BEFORE_AFTER if found else ALONE}{"".join(more)}</div>'

@@ -1,0 +1,27 @@
+"""Residual arrows at the places they were measured: from above and from the side, before and after."""
+
+from __future__ import annotations
+
+from app.diagnosis.report.drawing.arrows import arrow_plot, magnification
+from app.diagnosis.report.parts.case import Case, figure, key, section
+
+
+def space(case: Case) -> str:
+    """Nothing for recordings without points."""
+    evidence = case.diagnosis.evidence
+    if evidence is None or evidence.points_measured is None or evidence.points_predicted_before is None:
+        return ""
+    factor = magnification(evidence)
+    states = (False, True) if case.diagnosis.findings else (False,)
+    pictures = "".join(
+        figure(arrow_plot(evidence, view, after=after, factor=factor, title=title))
+        for view, title in (((0, 1), "From above"), ((0, 2), "From the side"))
+        for after in states
+    )
+    return section(
+        "Where in the work space",
+        f'<p class="small soft">Arrows run from where the simulation puts the tool to where it was measured, '
+        f"{factor:g} times longer than they are. Grey: rows set aside.</p>",
+        key(found=len(states) == 2),
+        f'<div class="grid2">{pictures}</div>',
+    )

@@ -1,0 +1,57 @@
+"""Measured and simulated torque of every joint over time, contact windows shaded."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from app.diagnosis.report.drawing.traces import trace_plot
+from app.diagnosis.report.parts.case import Case, figure, key, section, table
+from app.diagnosis.report.wording import digits, fall
+from app.diagnosis.result import Diagnosis, Evidence
+
+
+def windows_of(diagnosis: Diagnosis) -> list[tuple[float, float]]:
+    """Spans of time [s] that findings point at; an open end runs to the end of the recording."""
+    evidence = diagnosis.evidence
+    end = (
+        float(evidence.t[-1])
+        if evidence is not None and evidence.t is not None and len(evidence.t)
+        else np.inf
+    )
+    return [
+        (float(f.where["from_s"]), float(f.where.get("to_s", end)))
+        for f in diagnosis.findings
+        if f.where.get("from_s") is not None
+    ]
+
+
+def timeline(case: Case) -> str:
+    """Nothing for recordings that are no torques over time."""
+    d, evidence = case.diagnosis, case.diagnosis.evidence
+    if evidence is None or evidence.unit != "Nm" or evidence.t is None or len(evidence.t) < 2:
+        return ""
+    windows = windows_of(d)
+    count = evidence.measured.shape[1]
+    pictures = "".join(
+        figure(trace_plot(evidence, joint, windows, labelled=joint == count - 1)) for joint in range(count)
+    )
+    more = ['<span><i class="m"></i>measured</span>']
+    if windows:
+        more.append('<span><i class="w"></i>time a finding points at</span>')
+    return section("Torque over time", _per_joint(evidence), key(*more, found=bool(d.findings)), pictures)
+
+
+def _per_joint(evidence: Evidence) -> str:
+    rows = []
+    for k, name in enumerate(evidence.components):
+        before, after = (_rms(r[:, k][evidence.kept]) for r in (evidence.before, evidence.after))
+        rows.append(
+            (name, digits(_rms(evidence.measured[:, k])), digits(before), digits(after), fall(before, after))
+        )
+    heads = ("", "torque, rms [Nm]", "error before [Nm]", "error after [Nm]", "")
+    return table(heads, rows, numbers=(1, 2, 3))
+
+
+def _rms(values: np.ndarray) -> float:
+    values = values[np.isfinite(values)]
+    return float(np.sqrt(np.mean(values**2))) if len(values) else float("nan")

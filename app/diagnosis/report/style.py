@@ -1,0 +1,65 @@
+"""The page's look: calm on a screen, true on A4; colours that stay apart for colour-blind eyes."""
+
+CSS = """
+:root{--ink:#1c2730;--soft:#5b6873;--rule:#d9dfe4;--paper:#fff;--tint:#f5f7f9;
+--before:#d97b16;--after:#1866ad;--noise:#7b8794;--good:#1d7a4c;--warn:#a15c00;--bad:#a3262a}
+*{box-sizing:border-box}
+html{background:#e9edf0;-webkit-print-color-adjust:exact;print-color-adjust:exact}
+body{margin:0 auto;max-width:210mm;background:var(--paper);color:var(--ink);padding:15mm 16mm 14mm;
+font:10.2pt/1.46 "Inter","Segoe UI","Helvetica Neue",Arial,"Noto Sans","DejaVu Sans",sans-serif}
+header{border-bottom:2px solid var(--ink);padding-bottom:9px;margin-bottom:13px}
+.brand{font-weight:600;color:var(--soft);font-size:9pt;display:flex;justify-content:space-between}
+h1{font-size:19pt;line-height:1.2;margin:5px 0 3px;font-weight:650;overflow-wrap:anywhere}
+h2{font-size:12.4pt;margin:20px 0 6px;font-weight:650;break-after:avoid}
+h3{font-size:11.4pt;margin:0;font-weight:650}
+p{margin:0 0 7px}section>p.small{break-after:avoid;break-inside:avoid}.soft{color:var(--soft)}.small{font-size:8.8pt}
+.meta{color:var(--soft);font-size:9.4pt}
+.verdict{border-left:6px solid var(--tone);background:var(--tint);padding:10px 14px;margin:0 0 13px;break-inside:avoid}
+.verdict b{color:var(--tone);font-size:12.4pt;display:block}
+.clean{--tone:var(--good)}.named{--tone:var(--after)}.partly{--tone:var(--warn)}.unexplained{--tone:var(--bad)}
+.key{display:flex;flex-wrap:wrap;gap:4px 18px;font-size:8.8pt;color:var(--soft);margin:2px 0 4px;break-after:avoid}
+.key i{display:inline-block;width:16px;height:8px;margin-right:5px;border-radius:2px;vertical-align:1px}
+.key i.b{background:var(--before)}.key i.a{background:var(--after)}.key i.m{background:var(--ink)}
+.key i.w{background:#f3d9d9}.key i.n{height:0;border-top:2px dashed var(--noise);vertical-align:3px;border-radius:0}
+.card{border:1px solid var(--rule);border-radius:6px;padding:11px 14px 10px;margin:0 0 11px;break-inside:avoid}
+.card .top{display:flex;gap:10px;align-items:baseline;flex-wrap:wrap}
+.card .no{background:var(--after);color:#fff;border-radius:50%;width:21px;height:21px;text-align:center;
+font-size:9.4pt;line-height:21px;font-weight:600;flex:none}
+.card .where{color:var(--soft)}
+.card .say{font-size:11pt;margin:6px 0 8px}
+.facts{display:grid;grid-template-columns:1.15fr 1fr;gap:4px 22px}
+.facts dl{margin:0;display:grid;grid-template-columns:max-content 1fr;gap:2px 12px;align-content:start}
+dt{color:var(--soft)}dd{margin:0;font-variant-numeric:tabular-nums}
+.law{font-family:"Cambria Math","STIX Two Math","Latin Modern Math",Cambria,"DejaVu Serif",serif;font-style:italic}
+.meter{display:inline-block;width:90px;height:7px;background:var(--rule);border-radius:4px;vertical-align:1px;
+margin-right:7px;overflow:hidden}.meter i{display:block;height:100%;background:var(--after)}
+.alt{margin:8px 0 0;padding-top:6px;border-top:1px solid var(--rule);font-size:9.2pt;color:var(--soft)}
+.grid2{display:grid;grid-template-columns:1fr 1fr;gap:8px 14px}.grid2>*{break-inside:avoid}
+figure{margin:0;break-inside:avoid}figcaption{font-size:8.8pt;color:var(--soft)}
+table{border-collapse:collapse;width:100%;font-variant-numeric:tabular-nums;font-size:9.4pt}
+th{text-align:left;font-weight:600;color:var(--soft);border-bottom:1px solid var(--ink);padding:3px 8px 3px 0}
+td{border-bottom:1px solid var(--rule);padding:3px 8px 3px 0}tr{break-inside:avoid}
+td.n,th.n{text-align:right}table.fit{width:auto;min-width:46%}
+ul{margin:0 0 6px;padding-left:17px}li{margin-bottom:2px}
+footer{margin-top:20px;border-top:1px solid var(--rule);padding-top:7px;font-size:8.6pt;color:var(--soft)}
+code{font-family:"DejaVu Sans Mono",Consolas,monospace;font-size:8.6pt;overflow-wrap:anywhere}
+svg{display:block;width:100%;height:auto;font-family:inherit}
+.tick{font-size:9px;fill:#5b6873}.label{font-size:10px;fill:#1c2730}.value{font-size:10px;fill:#1c2730}
+.end{text-anchor:end}.mid{text-anchor:middle}
+.grid{stroke:#e6eaee;stroke-width:.8}.zero{stroke:#9aa5af;stroke-width:.9}
+.fill-before{fill:var(--before)}.fill-after{fill:var(--after)}
+.noise{stroke:var(--noise);stroke-width:1.4;stroke-dasharray:5 3}
+.dot{fill:none;stroke-linecap:round;stroke-width:3.2}.dot.before{stroke:var(--before);opacity:.45}
+.dot.after{stroke:var(--after);opacity:.55}.dot.place{stroke:#1c2730;stroke-width:2.2;opacity:.6}
+.mean,.halo,.trace,.stroke{fill:none;stroke-linejoin:round;stroke-linecap:round}
+.halo{stroke:#fff;stroke-width:4.6}.mean{stroke-width:2.2}
+.stroke{stroke-width:1.2}.trace{stroke-width:1}.trace.measured{stroke:#1c2730;stroke-width:1.1}
+.mean.before,.stroke.before,.trace.before{stroke:var(--before)}
+.mean.after,.stroke.after,.trace.after{stroke:var(--after)}.stroke.aside{stroke:#aab3bb}
+.window{fill:#f3d9d9}
+.again{break-before:page;margin-top:26px}
+@media screen{body{margin:8mm auto;box-shadow:0 1px 8px rgba(28,39,48,.18)}}
+@media print{html{background:#fff}body{padding:0;max-width:none;margin:0}}
+@page{size:A4;margin:15mm 16mm 16mm}
+@media (max-width:640px){.grid2,.facts{grid-template-columns:1fr}body{padding:16px}}
+"""
