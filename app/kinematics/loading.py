@@ -86,12 +86,22 @@ def _main_chain(root: ET.Element, path: Path) -> list[ET.Element]:
     chains = {link: up(link) for link in links}
     if not chains:
         raise FileFormatError("no links", file=path, expected="a URDF file with links and joints")
-    most = max(moving(chain) for chain in chains.values())
-    longest = {link: chain for link, chain in chains.items() if moving(chain) == most}
     for name in FLANGE_NAMES:
-        if name in longest:
-            return longest[name]
-    return max(longest.values(), key=len)
+        if moving(chains.get(name, [])):
+            return chains[name]
+    most = max(moving(chain) for chain in chains.values())
+    longest = max((chain for chain in chains.values() if moving(chain) == most), key=len)
+    for k, joint in enumerate(longest):  # where moving branches part behind the arm, a gripper begins
+        fork = joint.find("parent").get("link", "")  # type: ignore[union-attr]
+        before = longest[:k]
+        branches = {
+            chain[k].get("name")
+            for chain in chains.values()
+            if chain[:k] == before and len(chain) > k and moving(chain[k:])
+        }
+        if moving(before) and len(branches) > 1 and before[-1].find("child").get("link") == fork:  # type: ignore[union-attr]
+            return before
+    return longest
 
 
 def _from_urdf(path: Path, *, name: str, description: dict) -> RobotModel:
