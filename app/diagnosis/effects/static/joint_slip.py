@@ -1,0 +1,44 @@
+"""A joint's zero jumped between two rows: a tooth, a brake, a lost count."""
+
+from __future__ import annotations
+
+from app.diagnosis.static.effect import (
+    Place,
+    Quantity,
+    StaticEffect,
+    angle_unit,
+    joint_name,
+    joints,
+    masked,
+    number,
+    since,
+)
+
+
+class JointSlip(StaticEffect):
+    key = "joint_slip"
+    title = "A joint's zero jumped"
+    equation = "q_true = q + step from row k on"
+    rank = 20
+
+    def places(self, situation):
+        return [Place({"joint": j}, scan=True) for j in joints(situation)]
+
+    def quantities(self, situation, place):
+        return (Quantity("step", angle_unit(situation, place.where["joint"])),)
+
+    def apply(self, cell, situation, place, values):
+        return cell.add_joint(place.where["joint"] - 1, values[0] * since(situation, place))
+
+    def columns(self, columns, place):
+        j = place.where["joint"] - 1
+        return masked(columns.joint[:, :, j, None], columns.situation, place)
+
+    def sentence(self, place, parameters):
+        return (
+            f"The zero of {joint_name(place)} jumped by {number(parameters[0])} "
+            f"at row {place.where['from_row']}."
+        )
+
+
+EFFECT = JointSlip()

@@ -1,0 +1,40 @@
+"""Other explanations of a finding that the recording cannot rule out."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from app.diagnosis.result import Alternative
+from app.diagnosis.static.fit import Fitted
+from app.diagnosis.static.library import Candidate, library
+from app.diagnosis.static.score import basis
+from app.diagnosis.static.search import score_all, without
+
+#: Difference of BIC within which two models are not told apart (a Bayes factor of 100).
+MARGIN = 9.2
+MOST = 8
+
+
+def alternatives_of(fitted: Fitted, index: int, wanted: tuple[Candidate, ...]) -> tuple[Alternative, ...]:
+    """Candidates that, put in the place of term `index`, come within `MARGIN` of it."""
+    jacobian, white = without(fitted, index)
+    base = basis(jacobian)
+    scores = score_all(fitted, library(fitted.columns, wanted), base, None, white)
+    term = fitted.terms[index]
+    rest = white - base.q @ (base.q.T @ white)
+    rss, n = float(rest @ rest), fitted.size
+    mine = fitted.rss
+    parameters = len(term.values)
+    delta = n * np.log(np.maximum(rss - scores.gain, 1e-300) / mine) + (scores.size - parameters) * np.log(n)
+    taken = {(t.effect.key, *sorted(t.where.items())) for t in fitted.terms}
+    out: list[Alternative] = []
+    for at in np.argsort(delta):
+        candidate = scores.candidates[at]
+        label = (candidate.effect.key, *sorted(candidate.place.where.items()))
+        if delta[at] > MARGIN or len(out) == MOST:
+            break
+        if label in taken:
+            continue
+        taken.add(label)
+        out.append(Alternative(candidate.effect.key, dict(candidate.place.where), float(delta[at])))
+    return tuple(out)

@@ -1,0 +1,91 @@
+"""What pictures are drawn from."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from app.diagnosis.result import Evidence
+from app.diagnosis.static.fit import Fitted, fit
+from app.diagnosis.static.noise import starting_weights
+from app.diagnosis.static.recording import StaticRecording
+from app.geometry import Pose
+from app.units import deg
+
+
+def evidence_of(recording: StaticRecording, outcome) -> Evidence:
+    """Measured and predicted of every row, outliers included."""
+    before = _everywhere(recording, outcome.before)
+    after = _everywhere(recording, outcome.found.fitted)
+    first = recording.session[0]
+    rotation, position = after.setup.rotations, after.setup.positions
+    measured_base = _measured_in_base(recording, after)
+    if recording.mode == "length":
+        measured = recording.lengths[:, None]  # type: ignore[index]
+    elif recording.mode == "targets":
+        measured = measured_base
+    else:
+        measured = recording.points.reshape(recording.size, -1)  # type: ignore[union-attr]
+    metric = ~recording.angular
+    components = tuple(np.array(recording.components)[metric])
+    return Evidence(
+        rows=recording.rows,
+        measured=np.nan_to_num(measured),
+        before=before.residual[:, metric],
+        after=after.residual[:, metric],
+        components=components,
+        unit="m",
+        q=recording.q,
+        drivers=drivers(recording),
+        kept=~outcome.outliers,
+        T_instrument_base=Pose.of(rotation[first], position[first]).matrix,
+        points_predicted_before=before.posed.points[:, 0],
+        points_predicted_after=after.posed.points[:, 0],
+        points_measured=measured_base,
+        flange_tool=after.setup.tools[first, 0],
+    )
+
+
+def _everywhere(recording: StaticRecording, fitted: Fitted) -> Fitted:
+    """The fit's state evaluated on all rows, nothing refitted."""
+    if fitted.recording.size == recording.size:
+        return fitted
+    return fit(
+        recording, fitted.setup, fitted.terms, starting_weights(recording), held=fitted.held, iterations=0
+    )
+
+
+def _measured_in_base(recording: StaticRecording, fitted: Fitted) -> np.ndarray:
+    """First reflector (or target) brought into base, by the fitted setup."""
+    setup = fitted.setup
+    if recording.mode == "targets":
+        return setup.targets[recording.target]
+    rotation, position = setup.rotations[recording.session], setup.positions[recording.session]
+    if recording.mode == "length":  # along the wire
+        points = fitted.posed.points[:, 0] + position
+        beam = points / np.linalg.norm(points, axis=1, keepdims=True)
+        return fitted.posed.points[:, 0] + beam * fitted.residual[:, :1]
+    assert recording.points is not None
+    points = recording.points[:, 0]
+    points = np.where(
+        np.isfinite(points), points, position + np.einsum("mij,mj->mi", rotation, fitted.posed.points[:, 0])
+    )
+    return np.einsum("mji,mj->mi", rotation, points - position)
+
+
+def drivers(recording: StaticRecording) -> dict[str, np.ndarray]:
+    """What residuals can be plotted against."""
+    situation = recording.situation
+    out: dict[str, np.ndarray] = {}
+    for j in range(situation.joint_count):
+        sliding = situation.chain.prismatic[j]
+        out[f"q{j + 1} [{'m' if sliding else 'deg'}]"] = (
+            situation.q[:, j] if sliding else deg(situation.q[:, j])
+        )
+    for j in range(situation.joint_count):
+        unit = "N" if situation.chain.prismatic[j] else "Nm"
+        out[f"gravity torque {j + 1} [{unit}]"] = situation.torque[:, j]
+        out[f"approach {j + 1} [-]"] = situation.approach[:, j]
+    out[f"time [{situation.time_unit}]"] = situation.time
+    if situation.temperature is not None:
+        out["temperature [K]"] = situation.temperature
+    return out

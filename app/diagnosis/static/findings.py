@@ -1,0 +1,89 @@
+"""From a fit to what a person reads: findings with their uncertainty, share, improvement and rivals."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from app.diagnosis.result import Finding, Quality
+from app.diagnosis.static.alternatives import alternatives_of
+from app.diagnosis.static.fit import Fitted, covariance
+from app.diagnosis.static.heldout import heldout_squares, interleaved
+from app.diagnosis.static.library import Candidate
+from app.diagnosis.static.noise import component_rms
+from app.diagnosis.static.score import basis
+from app.diagnosis.static.search import without
+from app.units import mm
+
+
+def findings_of(
+    fitted: Fitted, p_values: dict[tuple, float], wanted: tuple[Candidate, ...]
+) -> tuple[Finding, ...]:
+    """One finding a term that is not tacit.
+
+    Args:
+        p_values: family-wise, by the term's label.
+    """
+    spread = covariance(fitted)
+    heldout = heldout_position(fitted)
+    out = []
+    situation = fitted.recording.situation
+    for index, term in enumerate(fitted.terms):
+        if term.tacit:
+            continue
+        where = fitted.slices[index]
+        parameters = term.effect.report(situation, term.place, term.values, spread[where, where])
+        out.append(
+            Finding(
+                effect=term.effect.key,
+                where=dict(term.where),
+                parameters=parameters,
+                visible=visible_share(fitted, index),
+                p_value=p_values.get(term.label, float("nan")),
+                heldout_rms_without=heldout_position(fitted, index),
+                heldout_rms_with=heldout,
+                alternatives=alternatives_of(fitted, index, wanted),
+                sentence=term.effect.sentence(term.place, parameters),
+                equation=term.effect.equation,
+            )
+        )
+    return tuple(out)
+
+
+def visible_share(fitted: Fitted, index: int) -> float:
+    """Share of the term's signature that nothing else in the fit can imitate."""
+    where = fitted.slices[index]
+    block = fitted.jacobian[:, where] @ fitted.terms[index].values
+    if not np.any(block):
+        block = fitted.jacobian[:, where].sum(axis=1)
+    keep = np.ones(fitted.jacobian.shape[1], bool)
+    keep[where] = False
+    rest = basis(fitted.jacobian[:, keep]).project(block[:, None])[:, 0]
+    return float(np.clip(np.linalg.norm(rest) / max(float(np.linalg.norm(block)), 1e-300), 0.0, 1.0))
+
+
+def heldout_position(fitted: Fitted, leave: int | None = None) -> float:
+    """Held-out error of the position components [mm], optionally with one term taken out.
+
+    The whitened held-out error is brought back by the spread of the position components.
+    """
+    jacobian, white = (fitted.jacobian, fitted.white) if leave is None else without(fitted, leave)
+    m = len(fitted.weights)
+    metric = np.repeat((~fitted.recording.angular)[None], m, axis=0).reshape(-1)
+    sigma = 1.0 / float(fitted.weights[:, ~fitted.recording.angular].max(initial=1e-300))
+    total, count = heldout_squares(
+        jacobian,
+        white,
+        interleaved(fitted.recording.pose),
+        m,
+        counted=metric & (fitted.weights.reshape(-1) > 0),
+    )
+    return mm(sigma * float(np.sqrt(total / max(count, 1))))
+
+
+def quality(fitted: Fitted) -> Quality:
+    """Fit and held-out error of the position components [mm]."""
+    return Quality(
+        fit_rms=mm(component_rms(fitted, ~fitted.recording.angular, corrected=False)),
+        heldout_rms=heldout_position(fitted),
+        unit="mm",
+    )

@@ -1,0 +1,81 @@
+"""Every effect at every place as one matrix of columns."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cache
+
+import numpy as np
+
+from app import catalog
+from app.diagnosis.static.effect import Place, StaticEffect
+from app.diagnosis.static.sensitivity import Sensitivity
+from app.diagnosis.static.situation import Situation
+
+EFFECTS = "app.diagnosis.effects.static"
+#: Effects that restate the geometry of the description.
+GEOMETRY = ("joint_zero", "link_length", "link_twist")
+
+
+@cache
+def effects() -> dict[str, StaticEffect]:
+    """All static effects by key."""
+    return catalog.members(EFFECTS, "EFFECT")
+
+
+@dataclass(frozen=True)
+class Candidate:
+    """One effect at one place (its starting row still open where `place.scan`)."""
+
+    effect: StaticEffect
+    place: Place
+
+    @property
+    def label(self) -> tuple:
+        return (self.effect.key, *sorted(self.place.where.items()), *sorted(self.place.fixed.items()))
+
+
+@dataclass(frozen=True, eq=False)
+class Library:
+    """Candidates with their columns.
+
+    Args:
+        candidates: those without a starting row.
+        matrix: (N, g) their columns side by side, whitened.
+        starts: (len(candidates) + 1,) first column of each.
+        scans: candidates with a starting row to be searched for, and their unmasked columns (m, k, d).
+    """
+
+    candidates: tuple[Candidate, ...]
+    matrix: np.ndarray
+    starts: np.ndarray
+    scans: tuple[tuple[Candidate, np.ndarray], ...]
+
+    def block(self, index: int) -> np.ndarray:
+        return self.matrix[:, self.starts[index] : self.starts[index + 1]]
+
+
+def candidates(situation: Situation, without: frozenset[str] = frozenset()) -> tuple[Candidate, ...]:
+    """Every effect at every place it can sit on this arm."""
+    return tuple(
+        Candidate(effect, place)
+        for key, effect in effects().items()
+        if key not in without
+        for place in effect.places(situation)
+    )
+
+
+def library(columns: Sensitivity, wanted: tuple[Candidate, ...]) -> Library:
+    """Their columns at the present state of the cell."""
+    m, k = columns.weights.shape
+    fixed, blocks, scans = [], [], []
+    for candidate in wanted:
+        block = candidate.effect.columns(columns, candidate.place)
+        if candidate.place.scan:
+            scans.append((candidate, block))
+        else:
+            fixed.append(candidate)
+            blocks.append(block)
+    starts = np.concatenate([[0], np.cumsum([b.shape[2] for b in blocks])]).astype(int)
+    matrix = np.concatenate(blocks, axis=2).reshape(m * k, -1) if blocks else np.zeros((m * k, 0))
+    return Library(tuple(fixed), matrix, starts, tuple(scans))

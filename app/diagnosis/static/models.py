@@ -1,0 +1,56 @@
+"""Terms to a saved model and back."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from app.diagnosis.model import ModelEffect, SavedModel
+from app.diagnosis.static.effect import Place
+from app.diagnosis.static.fit import Fitted, Term
+from app.diagnosis.static.library import effects
+from app.diagnosis.static.situation import Situation
+from app.errors import UnknownNameError
+
+_FIXED = "fixed_"  # prefix of parameters that choose a law's form
+
+
+def saved_model(fitted: Fitted, robot: str, source: str) -> SavedModel:
+    """Everything found, in SI, geometry that was only fitted alongside included."""
+    out = []
+    for term in (*fitted.held, *fitted.terms):
+        quantities = term.effect.quantities(fitted.recording.situation, term.place)
+        parameters = {q.name: float(v) for q, v in zip(quantities, term.values, strict=True)}
+        parameters |= {_FIXED + name: float(value) for name, value in term.place.fixed.items()}
+        out.append(ModelEffect(term.effect.key, dict(term.where), parameters))
+    setup = fitted.setup
+    nuisance = {
+        "rotations": setup.rotations.reshape(-1).tolist(),
+        "positions": setup.positions.reshape(-1).tolist(),
+        "tools": setup.tools.reshape(-1).tolist(),
+        "targets": setup.targets.reshape(-1).tolist(),
+    }
+    return SavedModel("static", robot, tuple(out), nuisance, source)
+
+
+def held_terms(model: SavedModel, situation: Situation) -> tuple[Term, ...]:
+    """A saved model's effects as terms for this situation.
+
+    Raises:
+        UnknownNameError: an effect or parameter this program does not have.
+    """
+    out = []
+    for entry in model.effects:
+        known = effects()
+        if entry.effect not in known:
+            raise UnknownNameError(entry.effect, available=known, what="static effect in the saved model")
+        effect = known[entry.effect]
+        fixed = {k[len(_FIXED) :]: v for k, v in entry.parameters.items() if k.startswith(_FIXED)}
+        place = Place(dict(entry.where), fixed, scan="from_row" in entry.where)
+        names = [q.name for q in effect.quantities(situation, place)]
+        missing = [name for name in names if name not in entry.parameters]
+        if missing:
+            raise UnknownNameError(
+                missing[0], available=entry.parameters, what=f"parameter of {entry.effect}"
+            )
+        out.append(Term(effect, place, np.array([entry.parameters[name] for name in names])))
+    return tuple(out)

@@ -1,0 +1,295 @@
+"""From a table to a static recording: what can be used, and what a person should know of the rest."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from app.diagnosis.static.recording import Mode, StaticRecording
+from app.diagnosis.static.situation import situation_for
+from app.diagnosis.static.suspicion import joint_notes, refuse_joints, refuse_measurements
+from app.errors import CellValueError, InputError, TooFewPointsError
+from app.geometry import rotation_from_quaternion
+from app.kinematics import RobotModel
+from app.recordings import Table
+from app.units import from_deg, from_mm
+
+LEAST_ROWS = 6
+
+
+@dataclass(frozen=True, eq=False)
+class _Measured:
+    mode: Mode
+    points: np.ndarray | None = None
+    orientations: np.ndarray | None = None
+    lengths: np.ndarray | None = None
+    target: np.ndarray | None = None
+    names: tuple[str, ...] = ()
+
+
+def read_static(table: Table, robot: RobotModel) -> StaticRecording:
+    """Reads a touch or tracker table.
+
+    Raises:
+        InputError: columns that do not fit the robot, or that cannot be a measurement.
+        TooFewPointsError: fewer rows than the unknowns need.
+    """
+    q, q_rows = _joints(table, robot)
+    notes: list[str] = []
+    measured = _touch(table, notes) if table.kind == "touch" else _tracker(table, notes)
+    refuse_joints(table, robot, q)
+    refuse_measurements(table, measured.points, measured.lengths, measured.orientations)
+    notes += joint_notes(robot, q)
+    m = len(q)
+    session = _numbers(table, "session", m)
+    time = _optional(table, "t")
+    if time is not None and np.any(np.diff(time) < 0):
+        notes.append("t_s runs backwards in places; the rows are taken in the order of the file")
+    pose = _poses(table, q, session)
+    keep = _distinct(q, measured, time, notes)
+    for mask, text in _useless(measured, session):
+        if (mask & keep).any():
+            notes.append(text.format(count=int((mask & keep).sum())))
+            keep &= ~mask
+    torque = _torques(table, robot, q, notes)
+    recording = StaticRecording(
+        file=str(table.path),
+        kind=str(table.kind),
+        mode=measured.mode,
+        rows=q_rows,
+        points=measured.points,
+        orientations=measured.orientations,
+        lengths=measured.lengths,
+        target=np.zeros(m, int) if measured.target is None else measured.target,
+        target_names=measured.names,
+        session=session,
+        pose=pose,
+        situation=situation_for(
+            robot,
+            q,
+            sessions=session,
+            torque=torque,
+            payload=_optional(table, "payload"),
+            payload_com=_vector(table, "payload_com_m", 3),
+            declared_compliance=_vector(table, "compliance_rad_per_Nm", robot.joint_count),
+            time=time,
+            temperature=_temperature(table),
+        ),
+        stated_noise=_stated_noise(table),
+        angle_resolution=_angle_resolution(table, robot),
+        length_resolution=_length_resolution(table, measured),
+        notes=tuple(notes),
+    )
+    recording = renumbered(recording.subset(keep))
+    unknowns = (
+        6 + 3 * recording.reflectors if measured.mode != "targets" else 3 + 3 * len(recording.target_names)
+    )
+    if recording.size < LEAST_ROWS or recording.present.sum() <= unknowns:
+        raise TooFewPointsError(
+            f"{recording.size} usable rows cannot settle {unknowns} unknowns (base, tool, targets)",
+            needed=LEAST_ROWS,
+            advice="record more poses",
+            file=table.path,
+        )
+    return recording
+
+
+def renumbered(recording: StaticRecording) -> StaticRecording:
+    """The same rows with sessions, poses and targets numbered without gaps."""
+    session = np.unique(recording.session, return_inverse=True)[1]
+    pose = np.unique(recording.pose, return_inverse=True)[1]
+    target, names = recording.target, recording.target_names
+    if names:
+        used, target = np.unique(target, return_inverse=True)
+        names = tuple(names[i] for i in used)
+    return replace(recording, session=session, pose=pose, target=target, target_names=names)
+
+
+def _joints(table: Table, robot: RobotModel) -> tuple[np.ndarray, np.ndarray]:
+    names = table.numbered("q")
+    n = robot.joint_count
+    if len(names) < n:
+        table.require([f"q{len(names) + 1}"])
+    if len(names) > n:
+        raise InputError(
+            f"{len(names)} joints are recorded, {robot.name} has {n}",
+            file=table.path,
+            row=table.header_row,
+            column=table.columns[names[n]].name,
+            expected=f"q1 … q{n}, or another --robot",
+        )
+    for j, name in enumerate(names):
+        unit = table.columns[name].unit
+        sliding = robot.joints[j].prismatic
+        if (unit in ("m", "mm")) != sliding:
+            raise InputError(
+                f"joint {j + 1} of {robot.name} {'slides' if sliding else 'turns'}",
+                file=table.path,
+                row=table.header_row,
+                column=table.columns[name].name,
+                expected=f"{name}_{'m' if sliding else 'rad'}",
+            )
+    return table.numbers(names), table.rows
+
+
+def _touch(table: Table, notes: list[str]) -> _Measured:
+    names = table.text("target")
+    labels, target = np.unique(names, return_inverse=True)
+    known = [f"target_{c}" for c in "xyz"]
+    if table.has(*known):
+        points = table.numbers(known, missing=True)
+        if np.isfinite(points).all():
+            return _Measured("points", points=points[:, None], target=target, names=tuple(labels))
+        notes.append("some targets have no coordinates: all are taken as unknown")
+    return _Measured("targets", target=target, names=tuple(labels))
+
+
+def _tracker(table: Table, notes: list[str]) -> _Measured:
+    if not table.has("x") and table.has("length"):
+        return _Measured("length", lengths=table.number("length", missing=True))
+    reflectors = [table.numbers(["x", "y", "z"], missing=True)]
+    more = [[c + number for c in "xyz"] for number in ("2", "3")]
+    reflectors += [table.numbers(names, missing=True) for names in more if table.has(*names)]
+    points = np.stack(reflectors, axis=1)
+    for r in range(points.shape[1]):
+        lost = ~np.isfinite(points[:, r]).all(axis=1)
+        points[lost, r] = np.nan
+        if lost.any():
+            notes.append(f"reflector {r + 1} was lost in {int(lost.sum())} of {len(points)} rows")
+    orientations = None
+    if table.has("qw", "qx", "qy", "qz"):
+        quaternion = table.numbers(["qw", "qx", "qy", "qz"], missing=True)
+        length = np.linalg.norm(quaternion, axis=1)
+        wrong = np.flatnonzero(np.abs(length - 1.0) > 0.01)
+        if len(wrong):
+            raise CellValueError(
+                f"the quaternion's length is {length[wrong[0]]:.3g}",
+                file=table.path,
+                row=int(table.rows[wrong[0]]),
+                column="qw",
+                expected="1",
+            )
+        seen = np.isfinite(length)
+        orientations = np.full((len(points), 3, 3), np.nan)
+        orientations[seen] = rotation_from_quaternion(quaternion[seen] / length[seen, None])
+    return _Measured("points", points=points, orientations=orientations)
+
+
+def _numbers(table: Table, quantity: str, m: int) -> np.ndarray:
+    """Texts as numbers in the order of their first appearance."""
+    if not table.has(quantity):
+        return np.zeros(m, int)
+    seen: dict[str, int] = {}
+    return np.array([seen.setdefault(text, len(seen)) for text in table.text(quantity)], int)
+
+
+def _optional(table: Table, quantity: str) -> np.ndarray | None:
+    return table.number(quantity) if table.has(quantity) else None
+
+
+def _poses(table: Table, q: np.ndarray, session: np.ndarray) -> np.ndarray:
+    """One number a pose: said by the file, else rows of the same angles."""
+    if table.has("pose"):
+        return _numbers(table, "pose", len(q))
+    return np.unique(np.column_stack([q, session]), axis=0, return_inverse=True)[1].reshape(-1)
+
+
+def _distinct(q: np.ndarray, measured: _Measured, time: np.ndarray | None, notes: list[str]) -> np.ndarray:
+    """Rows that say something a row before did not: exact copies are no second measurement."""
+    parts = [q]
+    if measured.mode == "targets":
+        parts.append(measured.target[:, None])  # type: ignore[index]
+    elif measured.points is not None:
+        parts.append(np.nan_to_num(measured.points.reshape(len(q), -1), nan=-1e9))
+    if measured.lengths is not None:
+        parts.append(np.nan_to_num(measured.lengths[:, None], nan=-1e9))
+    if time is not None:
+        parts.append(time[:, None])
+    _, first = np.unique(np.concatenate(parts, axis=1), axis=0, return_index=True)
+    keep = np.zeros(len(q), bool)
+    keep[first] = True
+    if not keep.all():
+        notes.append(f"{int((~keep).sum())} rows are exact copies of others and were set aside")
+    return keep
+
+
+def _useless(measured: _Measured, session: np.ndarray) -> list[tuple[np.ndarray, str]]:
+    out = []
+    if measured.mode == "targets":
+        count = np.bincount(measured.target)  # type: ignore[arg-type]
+        out.append((count[measured.target] < 2, "{count} targets were touched only once and say nothing"))
+    if measured.points is not None:
+        lost = ~np.isfinite(measured.points).any(axis=(1, 2))
+        if measured.orientations is not None:
+            lost &= ~np.isfinite(measured.orientations).all(axis=(1, 2))
+        out.append((lost, "{count} rows hold no measurement"))
+    if measured.lengths is not None:
+        out.append((~np.isfinite(measured.lengths), "{count} rows hold no measurement"))
+    size = np.bincount(session)
+    out.append((size[session] < 4, "{count} rows belong to sessions too short to settle their own frame"))
+    return out
+
+
+def _torques(table: Table, robot: RobotModel, q: np.ndarray, notes: list[str]) -> np.ndarray | None:
+    names = table.numbered("tau")
+    if len(names) < robot.joint_count:
+        return None
+    tau = table.numbers(names[: robot.joint_count])
+    if not np.any(tau):
+        notes.append("the torque columns are all zero and were not used")
+        return None
+    return tau
+
+
+def _temperature(table: Table) -> np.ndarray | None:
+    names = [name for name in ("temperature", *table.numbered("temperature")) if table.has(name)]
+    return np.mean(table.numbers(names), axis=1) if names else None
+
+
+def _vector(table: Table, key: str, size: int) -> np.ndarray | None:
+    if table.keys.get(key) is None:
+        return None
+    try:
+        value = np.array(table.keys[key], float).reshape(-1)
+    except (TypeError, ValueError):
+        value = np.zeros(0)
+    if len(value) != size or not np.isfinite(value).all():
+        raise InputError("not a list of numbers", file=table.path, column=key, expected=f"{size} numbers")
+    return value
+
+
+def _stated_noise(table: Table) -> float | None:
+    value = table.keys.get("noise_mm")
+    if value is None:
+        return None
+    try:
+        noise = float(np.sqrt(np.mean(np.square(np.array(value, float)))))
+    except (TypeError, ValueError):
+        noise = float("nan")
+    if not noise > 0:
+        raise InputError(
+            f"found {value!r}"[:60], file=table.path, column="noise_mm", expected="a positive number"
+        )
+    return float(from_mm(noise))
+
+
+def _angle_resolution(table: Table, robot: RobotModel) -> float:
+    stated = table.keys.get("resolution_deg")
+    if stated is not None:
+        try:
+            return float(from_deg(float(stated)))
+        except (TypeError, ValueError):
+            raise InputError(
+                f"found {stated!r}"[:60], file=table.path, column="resolution_deg", expected="a number"
+            ) from None
+    turning = [f"q{j + 1}" for j, joint in enumerate(robot.joints) if not joint.prismatic]
+    return max((table.resolution(name) for name in turning), default=0.0)
+
+
+def _length_resolution(table: Table, measured: _Measured) -> float:
+    if measured.mode == "length":
+        return table.resolution("length")
+    if measured.mode == "points" and table.has("x"):
+        return max(table.resolution(c) for c in "xyz")
+    return 0.0
