@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-from scipy import stats
+from scipy import special
 
 from app.geometry.circle import AxisFit
 
@@ -67,7 +67,7 @@ def largest_shift(fit: AxisFit, weights: np.ndarray, *, steps: bool, stated: boo
     place = int(np.argmax(drops))
     drop = min(float(drops[place]), sse * (1.0 - 1e-12))
     windows = sum(len(f[0]) for f in found)
-    p_value = float(stats.f.sf((drop / 2.0) / ((sse - drop) / (dof - 2)), 2, dof - 2))
+    p_value = float(special.fdtrc(2, dof - 2, (drop / 2.0) / ((sse - drop) / (dof - 2))))
     if stated:
         p_value = max(p_value, float(np.exp(-0.5 * drop)))  # chi-squared with two degrees of freedom
     index = int(used[place + (2 if kinds[best] == "step" else 0)])

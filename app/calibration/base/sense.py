@@ -22,12 +22,14 @@ class Sense:
         odd: (n,) True for rows that go against the others, or whose angle does not fit its place.
         gap: (n,) [rad] place on the circle minus the angle that was written; None without angles.
         phase: [rad] azimuth of angle zero of every group; None without angles.
+        travel: [rad] from the first to the last place of the widest circle, at most a full turn.
     """
 
     sign: int
     odd: np.ndarray
     gap: np.ndarray | None = None
     phase: np.ndarray | None = None
+    travel: float = 0.0
 
 
 def wrapped(angle: np.ndarray) -> np.ndarray:
@@ -58,11 +60,22 @@ def sense_from_angles(
     length, sign, phase, gap = best
     middle = np.median(gap)
     odd = np.abs(wrapped(gap - middle)) > tolerance
-    return Sense(sign if length > _FOLLOWS else 0, odd, gap, phase)
+    travel = _travel(sign * angles + gap, groups, weights)
+    return Sense(sign if length > _FOLLOWS else 0, odd, gap, phase, travel)
 
 
-def sense_from_order(azimuths: np.ndarray, groups: np.ndarray) -> Sense:
-    """The sign of the steps from row to row; rows that step the other way are odd."""
+def _travel(place: np.ndarray, groups: np.ndarray, weights: np.ndarray) -> float:
+    widest = groups[int(np.argmax(weights))]
+    return float(min(np.ptp(place[groups == widest]), 2.0 * np.pi))
+
+
+def sense_from_order(azimuths: np.ndarray, groups: np.ndarray, weights: np.ndarray) -> Sense:
+    """The sign of the steps from row to row; rows that step the other way are odd.
+
+    Args:
+        azimuths: (n,) [rad] in the order of rows.
+        groups, weights: as above.
+    """
     forward = backward = 0
     steps_of: list[tuple[np.ndarray, np.ndarray]] = []
     for g in range(groups.max() + 1):
@@ -76,4 +89,8 @@ def sense_from_order(azimuths: np.ndarray, groups: np.ndarray) -> Sense:
     for mine, steps in steps_of:
         odd[mine[1:]] = sign * steps <= 0
     agree = max(forward, backward)
-    return Sense(sign if total and agree >= _AGREEMENT * total else 0, odd)
+    place = np.zeros(len(azimuths))
+    for mine, steps in steps_of:
+        place[mine[1:]] = np.cumsum(steps)
+    travel = _travel(place, groups, weights)
+    return Sense(sign if total and agree >= _AGREEMENT * total else 0, odd, travel=travel)

@@ -1,0 +1,28 @@
+"""Axes 1 and 2 that are not square to each other, beyond what the measurement leaves open."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from app.calibration.base.checks import Check
+from app.calibration.base.result import BaseCalibration
+from app.calibration.result import Warning_
+from app.units import deg, from_deg
+
+SIGMAS = 3.29  # 1 in 1000
+_WORTH_NAMING = from_deg(0.001)
+
+
+def _frame(base: BaseCalibration) -> Iterator[Warning_]:
+    off = base.angle - math.pi / 2.0
+    if abs(off) > max(SIGMAS * base.angle_sigma, _WORTH_NAMING):
+        yield Warning_(
+            CHECK.key,
+            f"axis 1 and axis 2 stand at {deg(base.angle):.4f} degrees, {abs(deg(off)):.4f} away from square; the "
+            f"measurement leaves {deg(base.angle_sigma):.4f} open",
+            "a property of this arm, or another axis moved along",
+        )
+
+
+CHECK = Check("axis_angle", "axes not square", {"frame": _frame})

@@ -1,0 +1,41 @@
+"""An arc under 90 degrees, with the error it costs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from app.calibration.base.arcfit import ArcFit
+from app.calibration.base.checks import Check
+from app.calibration.result import Warning_
+from app.geometry.circle import fit_axis
+from app.units import deg, from_deg, mm
+
+SHORT = from_deg(90)
+_SLACK = from_deg(0.05)  # 90 degrees by the pendant may come out a little less
+_GOOD = from_deg(180)
+
+
+def expected(points: int, radius: float, sigma: float, arc: float) -> tuple[float, float]:
+    """One-sigma error of the axis [rad] and of the centre [m] for evenly spread points on an arc [rad]."""
+    t = np.linspace(0.0, arc, points)
+    perfect = radius * np.stack([np.cos(t), np.sin(t), np.zeros_like(t)], axis=1)
+    c = fit_axis(perfect).covariance
+    return sigma * float(np.sqrt(c[2, 2] + c[3, 3])), sigma * float(np.sqrt(c[0, 0] + c[1, 1]))
+
+
+def _arc(found: ArcFit) -> Iterator[Warning_]:
+    if found.length >= SHORT - _SLACK:
+        return
+    axis, centre = expected(max(int(found.used.sum()), 4), found.radius, found.sigma, _GOOD)
+    yield Warning_(
+        CHECK.key,
+        f"axis {found.arc.axis}: the arc covers {deg(found.length):.1f} degrees; it leaves its axis open by "
+        f"{deg(found.sigma_axis):.4f} degrees and its centre by {mm(found.sigma_centre):.3f} mm, where 180 degrees "
+        f"would leave {deg(axis):.4f} degrees and {mm(centre):.3f} mm",
+        "turn this axis by 90 degrees or more",
+    )
+
+
+CHECK = Check("short_arc", "an arc under 90 degrees", {"arc": _arc})

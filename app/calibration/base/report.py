@@ -1,0 +1,152 @@
+"""A base calibration as JSON (teachframe.base/1) and as a page of text."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from app.calibration.base.arcfit import ArcFit
+from app.calibration.base.relation import Relation
+from app.calibration.base.result import BaseCalibration
+from app.calibration.result import Warning_
+from app.geometry import Pose
+from app.geometry.conventions import convention
+from app.units import deg, mm
+
+FORMAT = "teachframe.base/1"
+
+
+def matrix_mm(pose: Pose) -> list[list[float]]:
+    """4x4 rows, lengths in mm."""
+    m = pose.matrix.copy()
+    m[:3, 3] = mm(m[:3, 3])
+    return m.tolist()
+
+
+def warnings_json(warnings: Sequence[Warning_]) -> list[dict[str, str]]:
+    """The contract's list of warnings."""
+    return [{"code": w.code, "message": str(w)} for w in warnings]
+
+
+def arc_json(found: ArcFit, robot: int) -> dict[str, Any]:
+    """One arc; lengths in mm, angles in degrees."""
+    moved = {} if found.moved_at is None else {"moved_at_row": found.moved_at, "moved_mm": mm(found.moved_by)}
+    return {
+        "axis": found.arc.axis,
+        "radius_mm": mm(found.radius),
+        "arc_deg": deg(found.length),
+        "rms_mm": mm(found.rms),
+        "sigma_axis_deg": deg(found.sigma_axis),
+        "robot": robot,
+        "points": int(found.used.sum()),
+        "direction": found.axes.direction.tolist(),
+        "centre_mm": mm(found.centre).tolist(),
+        "sigma_centre_mm": mm(found.sigma_centre),
+        "noise_mm": mm(found.sigma),
+        "rows_set_aside": sorted(found.outliers),
+        **moved,
+    }
+
+
+def details_json(base: BaseCalibration) -> dict[str, Any]:
+    """What the contract leaves open, for one robot."""
+    out: dict[str, Any] = {
+        "file": str(base.source.path),
+        "sigma_mm": mm(base.sigma_position).tolist(),
+        "sigma_deg": deg(base.sigma_rotation).tolist(),
+        "covariance_m_rad": base.covariance.tolist(),
+        "axis_distance_mm": mm(base.offset),
+        "sigma_axis_distance_mm": mm(base.offset_sigma),
+        "axis_angle_deg": deg(base.angle),
+        "sigma_axis_angle_deg": deg(base.angle_sigma),
+        "joint1_during_axis2_deg": deg(base.zero.angle) if base.zero and base.zero.known else None,
+        "T_tracker_maker": None,
+        "T_base_maker": None,
+        "robot": base.source.robot,
+        "notes": list(base.notes),
+    }
+    if base.maker is not None:
+        out |= {
+            "robot": base.maker.robot,
+            "T_tracker_maker": matrix_mm(base.maker.T_tracker_maker),
+            "T_base_maker": matrix_mm(base.maker.T_base_maker),
+            "axis_distance_nominal_mm": mm(base.maker.offset_nominal),
+        }
+    return out
+
+
+def base_json(bases: Sequence[BaseCalibration], relation: Relation | None) -> dict[str, Any]:
+    """The contract's object for one robot, or for two and their relation."""
+    found = [w for b in bases for w in b.warnings] + (list(relation.warnings) if relation else [])
+    frames = [matrix_mm(b.T_tracker_base) for b in bases]
+    out: dict[str, Any] = {
+        "format": FORMAT,
+        "T_tracker_base": frames if relation else frames[0],
+        "T_base1_base2": matrix_mm(relation.T_base1_base2) if relation and relation.T_base1_base2 else None,
+        "arcs": [arc_json(a, number) for number, b in enumerate(bases, 1) for a in b.arcs],
+        "warnings": warnings_json(found),
+        "robots": [details_json(b) for b in bases],
+    }
+    if relation:
+        out["relation"] = {
+            "meeting_mm": mm(relation.meeting).tolist(),
+            "sigma_meeting_mm": mm(relation.sigma_meeting),
+            "covariance_m_rad": relation.covariance.tolist(),
+            "notes": list(relation.notes),
+        }
+    return out
+
+
+def pose_lines(pose: Pose) -> str:
+    """Position and angles on one line."""
+    x, y, z = mm(pose.position)
+    a, b, c = deg(np.asarray(convention("ZYX").from_rotation(pose.rotation)))
+    return f"{x:>11.3f} {y:>11.3f} {z:>11.3f} mm   A {a:>9.4f}  B {b:>9.4f}  C {c:>9.4f} deg"
+
+
+def base_text(base: BaseCalibration) -> str:
+    """What an operator reads about one robot."""
+    lines = [f"{base.source.path.name}"]
+    lines.append(
+        f"  {'axis':<6}{'rows':>5}{'arc deg':>9}{'radius mm':>12}{'rms mm':>9}{'axis ± deg':>12}{'centre ± mm':>13}"
+    )
+    lines += [
+        f"  {a.arc.axis:<6}{int(a.used.sum()):>5}{deg(a.length):>9.1f}{mm(a.radius):>12.3f}{mm(a.rms):>9.4f}"
+        f"{deg(a.sigma_axis):>12.5f}{mm(a.sigma_centre):>13.4f}"
+        for a in base.arcs
+    ]
+    sp, sr = mm(base.sigma_position), deg(base.sigma_rotation)
+    lines.append(f"  T_tracker_base   {pose_lines(base.T_tracker_base)}")
+    lines.append(
+        f"                ± {sp[0]:>11.3f} {sp[1]:>11.3f} {sp[2]:>11.3f} mm   about X {sr[0]:.4f}, Y {sr[1]:.4f}, "
+        f"Z {sr[2]:.4f} deg   (Z along axis 1, X to the work space, origin at the height of axis 2)"
+    )
+    if base.maker is not None:
+        lines.append(
+            f"  T_tracker_maker  {pose_lines(base.maker.T_tracker_maker)}   ({base.maker.robot}'s own base)"
+        )
+    beside = f" (description {mm(base.maker.offset_nominal):.2f})" if base.maker else ""
+    lines.append(
+        f"  axes 1 and 2     {mm(base.offset):.3f} ± {mm(base.offset_sigma):.3f} mm apart{beside}, at "
+        f"{deg(base.angle):.4f} ± {deg(base.angle_sigma):.4f} degrees"
+    )
+    lines += [f"  ! {w.code}: {w}" for w in base.warnings]
+    lines += [f"  · {note}" for note in base.notes]
+    return "\n".join(lines)
+
+
+def relation_text(relation: Relation) -> str:
+    """What an operator reads about two robots."""
+    lines = ["two robots"]
+    if relation.T_base1_base2 is not None:
+        x, y, z = mm(relation.meeting)
+        lines.append(f"  T_base1_base2    {pose_lines(relation.T_base1_base2)}")
+        lines.append(
+            f"  both tools sent to ({x:.0f}, {y:.0f}, {z:.0f}) mm of base 1 miss each other by "
+            f"{mm(relation.sigma_meeting):.3f} mm (one sigma)"
+        )
+    lines += [f"  ! {w.code}: {w}" for w in relation.warnings]
+    lines += [f"  · {note}" for note in relation.notes]
+    return "\n".join(lines)

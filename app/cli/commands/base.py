@@ -1,0 +1,51 @@
+"""Base frame from axis-1 and axis-2 arcs of a laser tracker; two files: the two-robot relation."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated
+
+import tyro
+
+
+@dataclass
+class Command:
+    """Base frame from axis-1 and axis-2 arcs of a laser tracker; two files: the two-robot relation.
+
+    Reads files of kind `arcs`, exports of SpatialAnalyzer, Leica and API trackers whose point names say axis and
+    angle (A1_-90, A2_15.5), and recordings of kind `tracker`: with one axis moving at a time they hold arcs of
+    every axis, else the base is fitted to the poses by the robot's description.
+    """
+
+    file: tyro.conf.Positional[Path]
+    """Arcs of the (first) robot."""
+
+    file2: tyro.conf.Positional[Path | None] = None
+    """Arcs of the second robot, recorded with the tracker in the same place."""
+
+    robot: Annotated[str | None, tyro.conf.arg(metavar="NAME|FILE.urdf")] = None
+    """The robot's description; default what the file says. Gives the step to the maker's base frame."""
+
+    axis: tuple[str, ...] = ()
+    """For exports whose names do not say it: AXIS=PATTERN, such as 1=ROB1_J1_* 2=ROB1_J2_*."""
+
+    at: tuple[float, float, float] | None = None
+    """Where both tools meet, mm in base 1; default half-way between the work spaces."""
+
+    json: bool = False
+    """One JSON object instead of the table."""
+
+    def run(self) -> int:
+        import msgspec
+
+        from app.calibration.base.run import run_base
+
+        result = run_base(
+            [self.file] if self.file2 is None else [self.file, self.file2],
+            robot=self.robot,
+            patterns=self.axis,
+            meeting_mm=self.at,
+        )
+        print(msgspec.json.encode(result.to_json()).decode() if self.json else result.to_text())
+        return 0
