@@ -80,33 +80,36 @@ class Cancel(Action, frozen=True, tag="cancel"):
     """Throws the points and the result away; the active tool stays what it was."""
 
 
-class LoadedPoint(msgspec.Struct, frozen=True, forbid_unknown_fields=True, omit_defaults=True):
-    """One row of a points file: its role, the flange in base as 3 x 4 rows [m], joints where the file has them."""
-
-    role: str
-    T_base_flange: tuple[tuple[float, float, float, float], ...]
-    q: tuple[float, ...] | None = None
-    row: int = 0
-
-
 class LoadPoints(Action, frozen=True, tag="load_points"):
     """Points from a file, with the mode and the estimator they are meant for.
 
     Args:
         source: the file's name, for the screen.
+        title: what the file calls itself.
         mode: key of the wizard mode.
-        method: `joint` or `pairwise`.
-        points: the rows.
-        rounding: half the last digit of positions [m] and angles [rad] as printed, 0 where exact.
-        angles: key of the angle convention the file was written in.
+        method: estimator of the tool point.
+        roles: one a row.
+        rows: line in the file, one a row.
+        columns: names of the columns with numbers, as written.
+        values: the numbers in SI units, one tuple a row.
+        steps: step of the last written digit of each column, SI units; 0 where exact.
+        angles: key of the angle convention; empty where `values` are joint positions.
+        robot: the arm whose joints `values` are; empty where they are flange poses.
+        references: tool points [m] the file states, by name.
     """
 
     source: str
+    title: str
     mode: str
     method: str
-    points: tuple[LoadedPoint, ...]
-    rounding: tuple[float, float] = (0.0, 0.0)
-    angles: str = "ZYX"
+    roles: tuple[str, ...]
+    rows: tuple[int, ...]
+    columns: tuple[str, ...]
+    values: tuple[tuple[float, ...], ...]
+    steps: tuple[float, ...]
+    angles: str = ""
+    robot: str = ""
+    references: dict[str, tuple[float, float, float]] = {}
 
 
 class Undo(Action, frozen=True, tag="undo"):

@@ -24,7 +24,7 @@ class Session:
         self._journal = journal
         self._lock = threading.RLock()
         self.state = first_state()
-        self.torn = False
+        self.torn = self.closed = False
         if journal is not None:
             self.state = _replayed(journal.recorded.entries, journal.path)
             self.torn = journal.recorded.torn
@@ -53,6 +53,7 @@ class Session:
 
     def close(self) -> None:
         """Closes the journal; the state can still be read."""
+        self.closed = True
         if self._journal is not None:
             self._journal.close()
 

@@ -1,15 +1,36 @@
-"""The recorded points to the mode's solver, with everything the session knows about them."""
+"""The recorded points to the solver, with everything the session knows about them."""
 
 from __future__ import annotations
 
-from app.calibration.result import ToolCalibration
+from app.calibration.quality.leave_one_out import leave_one_out
+from app.calibration.quality.light import light
+from app.calibration.quality.references import gap_to
+from app.calibration.quality.rounding import least_turn, rounding
+from app.calibration.solving import Solved
+from app.calibration.tool import calibrate
+from app.session.points import orientation_of, recorded_points
 from app.session.state import SessionState, mode_named
 
 
-def solve(state: SessionState) -> ToolCalibration:
-    """The tool frame of the points recorded so far.
+def solve(state: SessionState) -> Solved:
+    """The tool frame of the points recorded so far, with its quality.
 
     Raises:
         TeachframeError: the points cannot determine it; says what to do next.
     """
-    return mode_named(state.mode).solve(state.ordered, method=state.method)
+    points = recorded_points(state)
+    orientation = orientation_of(state.mode)
+    if orientation is None:
+        result = mode_named(state.mode).solve(points.captures)
+    else:
+        result = calibrate(
+            points.captures,
+            method=state.method,
+            orientation=orientation,
+            least_turn=least_turn(points),
+            context={"points": points},
+        )
+    effect = rounding(points, result)
+    gaps = tuple(gap_to(name, stated, result, effect) for name, stated in points.references.items())
+    left = leave_one_out(points.captures) if len(result.residual_vectors) else ()
+    return Solved(points, result, effect, gaps, left, light(result))

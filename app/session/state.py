@@ -12,9 +12,10 @@ import numpy as np
 
 from app import catalog
 from app.calibration.captures import Capture, Mode, Step
-from app.calibration.result import ToolCalibration
+from app.calibration.solving import Solved
 from app.geometry import Pose
 from app.kinematics import RobotModel, load_robot, robot_names
+from app.session.actions import LoadPoints
 
 MODES = "app.calibration.modes"
 FIRST_ROBOT = "jby50"
@@ -29,15 +30,6 @@ class Tool:
     T_flange_tool: Pose
 
 
-@dataclass(frozen=True)
-class Source:
-    """Where loaded points came from; `rounding` as in `LoadPoints`."""
-
-    name: str
-    rounding: tuple[float, float] = (0.0, 0.0)
-    angles: str = "ZYX"
-
-
 @dataclass(frozen=True, eq=False)
 class SessionState:
     """One moment of a session.
@@ -50,9 +42,9 @@ class SessionState:
         method: estimator of the tool point.
         captures: recorded points by step.
         comments: notes by step.
-        result: what Calculate gave; None as soon as a point changes.
+        result: what Calculate gave, with its quality; None as soon as a point changes.
         tools: accepted tools, the last one is active.
-        source: the file the points came from, None where they were recorded here.
+        source: the file the points came from; None where they were recorded here.
         count: actions so far.
         before: what Undo goes back to.
         after: what Redo goes forward to.
@@ -65,9 +57,9 @@ class SessionState:
     method: str = "joint"
     captures: Mapping[str, Capture] = field(default_factory=dict)
     comments: Mapping[str, str] = field(default_factory=dict)
-    result: ToolCalibration | None = None
+    result: Solved | None = None
     tools: tuple[Tool, ...] = ()
-    source: Source | None = None
+    source: LoadPoints | None = None
     count: int = 0
     before: SessionState | None = field(default=None, repr=False)
     after: SessionState | None = field(default=None, repr=False)

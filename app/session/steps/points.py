@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from app.calibration.captures import Capture, Step
 from app.calibration.tool import METHODS
 from app.errors import UnknownNameError
-from app.geometry import Pose
 from app.session.actions import Cancel, Comment, Delete, LoadPoints, Record, ReRecord
+from app.session.points import loaded_points
 from app.session.refusals import refusal
-from app.session.state import SessionState, Source, mode_named
+from app.session.state import SessionState, mode_named
 from app.session.steps.setup import checked_joints
 
 
@@ -70,28 +72,29 @@ def _cancel(state: SessionState, action: Cancel) -> SessionState:
 
 def _load(state: SessionState, action: LoadPoints) -> SessionState:
     """Rows are given to the wizard's steps in the order in which they ask for that role."""
+    if action.robot and action.robot != state.robot:
+        raise refusal("other_robot")
     try:
         mode = mode_named(action.mode)
     except UnknownNameError as error:
         raise refusal("unknown", reason=str(error)) from None
     if action.method not in METHODS:
         raise refusal("unknown", reason=f"unknown estimator {action.method!r}")
-    touches = sum("touch" in point.role.split("+") for point in action.points)
+    points = loaded_points(action)
+    touches = sum("touch" in capture.roles for capture in points.captures)
     if not mode.least_touches <= touches <= mode.most_touches:
         raise refusal(
             "touches", mode=mode.title, least=mode.least_touches, most=mode.most_touches, given=touches
         )
     steps = mode.steps(touches)
-    left = list(action.points)
+    left = list(points.captures)
     captures = {}
     for step in steps:
-        point = next((p for p in left if p.role == step.role), None)
-        if point is None:
+        found = next((c for c in left if set(c.roles) == set(step.roles)), None)
+        if found is None:
             raise refusal("missing", titles=f"{step.title} (role {step.role})")
-        left.remove(point)
-        q = None if point.q is None else np.array(point.q)
-        pose = Pose(np.vstack([np.array(point.T_base_flange), [0.0, 0.0, 0.0, 1.0]]))
-        captures[step.key] = Capture(step.key, step.role, pose, q, point.row)
+        left.remove(found)
+        captures[step.key] = replace(found, step_key=step.key)
     return state.but(
         mode=mode.key,
         touches=touches,
@@ -99,7 +102,7 @@ def _load(state: SessionState, action: LoadPoints) -> SessionState:
         captures=captures,
         comments={},
         result=None,
-        source=Source(action.source, action.rounding, action.angles),
+        source=action,
     )
 
 

@@ -25,7 +25,7 @@ def _accept(state: SessionState, action: Accept) -> SessionState:
     if not name:
         raise refusal("no_name")
     kept = tuple(tool for tool in state.tools if tool.name != name)
-    return state.but(tools=(*kept, Tool(name, state.result.T_flange_tool)))
+    return state.but(tools=(*kept, Tool(name, state.result.result.T_flange_tool)))
 
 
 ACTIONS = {Calculate: _calculate, Accept: _accept}

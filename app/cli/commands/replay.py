@@ -1,0 +1,51 @@
+"""Runs a recorded pendant session again without a browser and prints the same result."""
+
+from __future__ import annotations
+
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated
+
+import tyro
+
+
+@dataclass
+class Command:
+    """Runs a recorded pendant session again without a browser and prints the same result.
+
+    SESSION is the path of a journal, the folder it lies in, or a session's name (or the beginning of it) in the data
+    folder.
+    """
+
+    session: Annotated[str, tyro.conf.Positional, tyro.conf.arg(metavar="SESSION")]
+    """Journal, folder or name."""
+    data: Path | None = None
+    """The data folder the pendant was started with; without it the user's own."""
+    json: bool = False
+    """The object teachframe.tool/1 instead of the page."""
+
+    def run(self) -> int:
+        from app.errors import InputError
+        from app.session import replay
+        from app.session.report import report_json, report_text
+        from app.session.store import find_journal
+
+        path = find_journal(self.session, self.data)
+        state, torn = replay(path)
+        if torn:
+            print(
+                f"teachframe replay: {path}: the last line was not finished (the pendant was stopped while "
+                "writing it) and is left out",
+                file=sys.stderr,
+            )
+        if not self.json:
+            print(report_text(state))
+            return 0
+        line = report_json(state)
+        if line is None:
+            raise InputError(
+                "this session has no result", file=path, expected="a session with Calculate at its end"
+            )
+        print(line)
+        return 0

@@ -1,0 +1,14 @@
+"""The pendant in the browser. The only package that imports viser.
+
+server.py     the server: who connects gets a session, handed back after a reload
+hub.py        which session belongs to which browser
+client.py     Pendant: one browser's view of one session
+worker.py     one thread a session; callbacks only enqueue
+motion.py     how the arm gets from pose to pose, tick by tick
+layout.py     where things stand on the page: status line, message line, panels
+arm.py        draws an arm
+scene/        what stands in the cell, one file a thing
+screens/      one file a screen, found by the catalogue
+texts/        one file a language
+html.py       small pieces of page
+"""

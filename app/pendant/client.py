@@ -1,0 +1,313 @@
+"""One browser's view of one session: what is drawn, and the worker everything runs on."""
+
+from __future__ import annotations
+
+import logging
+import threading
+import time
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import numpy as np
+import viser
+
+from app.errors import TeachframeError, one_line
+from app.geometry import Pose
+from app.kinematics import IkResult, RobotModel, solve_ik
+from app.pendant import motion
+from app.pendant.layout import Layout
+from app.pendant.page import Page
+from app.pendant.stage import Stage
+from app.pendant.texts import FALLBACK, has_text, text
+from app.pendant.worker import Job, Worker
+from app.session import AnyAction, Session, SessionState
+from app.session.actions import Move
+from app.session.state import as_tuple, robot_named
+from app.simulation.world import World
+
+_LOG = logging.getLogger(__name__)
+_SETTLED = 0.5  # seconds without motion after which where the arm stands is written down
+_SHOWN = 0.1  # seconds between two updates of numbers while the arm moves
+_LOG_LENGTH = 200
+
+
+class Pendant:
+    """What a browser sees of a session.
+
+    Args:
+        client: viser's handle of the browser.
+        session: whose state is shown.
+        world_of: the cell of an arm.
+    """
+
+    def __init__(self, client: viser.ClientHandle, session: Session, world_of: Callable[[RobotModel], World]):
+        self.client, self.session, self._world_of = client, session, world_of
+        self.language, self.dark, self.convention = FALLBACK, False, "ZYX"
+        self.log: list[tuple[float, str, str]] = []
+        self.open = True
+        self._dragging = False
+        self._drag_message = False
+        self._numbers_at = 0.0
+        self.q = np.array(session.state.q)
+        self.world = world_of(self.model)
+        self.rng = np.random.default_rng(abs(hash(session.name)) if session.name else 0)
+        self.worker = Worker(f"pendant-{client.client_id}", self._around)
+        self.post(self._build)
+
+    # What screens use ------------------------------------------------------------------------------------
+
+    @property
+    def model(self) -> RobotModel:
+        """The arm that is shown."""
+        return robot_named(self.session.state.robot)
+
+    def t(self, key: str, **fields: Any) -> str:
+        """A text in the operator's language."""
+        return text(key, self.language, **fields)
+
+    def post(self, job: Job) -> None:
+        """Puts a job into the worker's queue, from any thread."""
+        self.worker.post(job)
+
+    def clicked(self, button: Any, job: Callable[[], None]) -> None:
+        """Runs `job` on the worker for each click."""
+
+        @button.on_click
+        async def _(event: viser.GuiEvent) -> None:
+            self.worker.post(job)
+
+    def chosen(self, group: Any, job: Callable[[str], None]) -> None:
+        """Runs `job` on the worker with the button of the group that was clicked."""
+
+        @group.on_click
+        async def _(event: viser.GuiEvent) -> None:
+            value = event.target.value
+            self.worker.post(lambda: job(value))
+
+    def changed(self, widget: Any, slot: str, job: Callable[[Any], None]) -> None:
+        """Runs `job` on the worker with the newest value somebody entered; what the program sets does not count."""
+
+        @widget.on_update
+        async def _(event: viser.GuiEvent) -> None:
+            if event.client is None:
+                return
+            value = event.target.value
+            self.worker.latest(slot, lambda: job(value))
+
+    def background(self, job: Callable[[], Any], done: Callable[[Any], None]) -> None:
+        """Long work on a thread of its own; `done` gets its result on the worker."""
+
+        def run() -> None:
+            try:
+                result = job()
+            except Exception as error:
+                self.post(lambda error=error: self._tell(error))
+            else:
+                self.post(lambda: done(result))
+
+        threading.Thread(target=run, name="pendant-background", daemon=True).start()
+
+    def say(self, level: str, words: str) -> None:
+        """The message line, and the log."""
+        self._drag_message = False
+        self.log.append((time.time(), level, words))
+        del self.log[:-_LOG_LENGTH]
+        self.layout.message(level, words)
+
+    def do(self, action: AnyAction) -> SessionState:
+        """An action on the session; every screen is refreshed. Raises ActionRefusedError, which `say`s itself."""
+        self.settle()
+        before = self.session.state
+        state = self.session.do(action)
+        if state.robot != before.robot:
+            self.q = np.array(state.q)
+            self.world = self._world_of(self.model)
+            self.rebuild()
+        else:
+            self.refresh()
+        return state
+
+    def go(self, q: np.ndarray, then: Job | None = None) -> None:
+        """The arm moves to q (n,), visibly; `then` is done at the end."""
+        self.worker.animate("move", self._travel([np.asarray(q, float)], lambda _: then() if then else None))
+
+    def tour(self, stops: list[np.ndarray], arrived: Callable[[int], None], rest: float = 0.5) -> None:
+        """The arm goes through poses; `arrived` hears the number of each, and once more -1 at the end."""
+        self.worker.animate("move", self._travel(stops, arrived, rest))
+
+    def place(self, q: np.ndarray) -> None:
+        """The arm stands at q (n,) at once, within its limits."""
+        self.worker.halt("move")
+        self.show(np.clip(q, self.model.lower, self.model.upper))
+        self.worker.animate("settle", self._settle_later())
+
+    # What is shown ---------------------------------------------------------------------------------------
+
+    def show(self, q: np.ndarray) -> None:
+        """Draws the arm at q (n,); the numbers follow a little slower."""
+        self.q = np.asarray(q, float)
+        self.stage.pose(self.q, self.world)
+        now = time.monotonic()
+        if now - self._numbers_at >= _SHOWN:
+            self._numbers_at = now
+            self.page.numbers()
+        else:
+            self.worker.animate("numbers", self._numbers_later())
+
+    def settle(self) -> None:
+        """Writes down where the arm stands, where that is not yet done."""
+        if as_tuple(self.q) != self.session.state.q:
+            self.session.do(Move(as_tuple(self.q)))
+
+    def refresh(self) -> None:
+        """Shows the session's state everywhere."""
+        state = self.session.state
+        if as_tuple(self.q) != state.q:
+            self.show(np.array(state.q))
+        self.stage.refresh(state)
+        self.page.refresh(state)
+
+    def rebuild(self) -> None:
+        """Makes the whole page anew: another arm, another language."""
+        self.worker.halt()
+        self.page.close()
+        self.client.gui.reset()
+        self.client.scene.reset()
+        self._build()
+
+    def solve(self, target: Pose, start: np.ndarray | None = None) -> IkResult:
+        """Joints that bring the drawn tool to `target`, T_base_tool."""
+        return solve_ik(
+            self.model,
+            target,
+            self.q if start is None else start,
+            T_flange_tool=self.world.T_flange_tool_true,
+        )
+
+    def why(self, result: IkResult) -> str:
+        """Why the arm did not get further."""
+        return self.t(f"message.{result.reason}", joints=", ".join(map(str, result.joints)))
+
+    # The life of the view --------------------------------------------------------------------------------
+
+    def greet(self, how: str) -> None:
+        """Says how the session was found: "new", "back" or "lost"."""
+
+        def job() -> None:
+            recorded = len(self.session.state.captures)
+            if how == "lost":
+                self.say("warning", self.t("message.lost"))
+            elif self.session.torn:
+                self.say("warning", self.t("message.torn"))
+            elif how == "back" and recorded:
+                self.say("good", self.t("message.back", points=recorded))
+            else:
+                self.say("info", self.t("message.welcome"))
+
+        self.post(job)
+
+    def taken_over(self) -> None:
+        """Another tab shows this session now."""
+        self.worker.halt()
+        self.post(self._let_go)
+
+    def close(self) -> None:
+        """The browser is gone: where the arm stands is written, the worker ends."""
+        self.open = False
+        self.worker.stop()
+        if not self.session.closed:
+            self.settle()
+        self.page_close()
+
+    def page_close(self) -> None:
+        """Screens let go of what they hold outside of the page."""
+        page = getattr(self, "page", None)
+        if page is not None:
+            page.close()
+
+    def _build(self) -> None:
+        self.layout = Layout(self.client.gui, dark=self.dark)
+        self.stage = Stage(self.client, self.world, self._dragged, dark=self.dark)
+        self.page = Page(self)
+        self.show(self.q)
+        self.refresh()
+
+    def _let_go(self) -> None:
+        self.settle()
+        self.page.close()
+        self.client.gui.reset()
+        self.client.scene.reset()
+        self.open = False
+        self.layout = Layout(self.client.gui, dark=self.dark)
+        self.client.gui.add_markdown(f"**{self.t('message.taken')}**\n\n{self.t('message.taken_detail')}")
+        self.layout.message("warning", self.t("message.taken"))
+
+    def _around(self, job: Job) -> None:
+        """Does a job; what fails is told and changes nothing."""
+        try:
+            with self.client.atomic():
+                try:
+                    job()
+                except Exception as error:
+                    self._tell(error)
+        except Exception:
+            if self.open:
+                _LOG.exception("the page of session %s could not be updated", self.session.name)
+
+    def _tell(self, error: Exception) -> None:
+        if isinstance(error, TeachframeError):
+            code = f"refused.{getattr(error, 'code', '')}"
+            known = has_text(code, self.language)
+            words = self.t(code, **getattr(error, "details", {})) if known else str(error)
+            self.say("warning", words)
+        else:
+            _LOG.error("a job failed", exc_info=error)
+            words = one_line(f"{type(error).__name__}: {error}", 160)
+            self.say("error", self.t("message.fault", what=words))
+        self.page.refresh(self.session.state)
+
+    def _dragged(self, phase: str, target: Pose) -> None:
+        """From the handle, on the event loop: only enqueues."""
+        if phase == "end":
+            self.worker.post(lambda: self._drag(target, last=True))
+        else:
+            self.worker.latest("drag", lambda: self._drag(target))
+
+    def _drag(self, target: Pose, *, last: bool = False) -> None:
+        self.worker.halt("move")
+        result = self.solve(target)
+        self.show(result.q)
+        if not result.reached:
+            words = self.why(result)
+            if not self._drag_message:
+                self.say("warning", words)
+            self._drag_message = True
+        elif self._drag_message:
+            self.layout.message("info", "")
+            self._drag_message = False
+        if last:
+            self._drag_message = False
+            self.stage.handle.place(self.world.tip(self.q))
+            self.settle()
+            self.page.numbers()
+
+    def _travel(
+        self, stops: list[np.ndarray], arrived: Callable[[int], None], rest: float = 0.0
+    ) -> Iterator[None]:
+        for number, stop in enumerate(stops):
+            yield from motion.move(self.q.copy(), stop, self.show)
+            self.page.numbers()
+            if len(stops) > 1:
+                arrived(number)
+                yield from motion.pause(rest)
+        self.settle()
+        arrived(-1)
+
+    def _settle_later(self) -> Iterator[None]:
+        yield from motion.pause(_SETTLED)
+        self.settle()
+
+    def _numbers_later(self) -> Iterator[None]:
+        yield from motion.pause(_SHOWN)
+        self._numbers_at = time.monotonic()
+        self.page.numbers()

@@ -1,0 +1,79 @@
+"""Everything written on one browser's page: both panels, the status line, the screens."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from app.pendant import html
+from app.pendant.panels import panels
+from app.pendant.screens import ScreenView, screens
+from app.session import SessionState
+from app.units import mm
+
+if TYPE_CHECKING:
+    from app.pendant.client import Pendant
+
+
+class Page:
+    """The panels of one browser.
+
+    Args:
+        pendant: whose session is shown.
+    """
+
+    def __init__(self, pendant: Pendant):
+        self._pendant = pendant
+        self._views: list[ScreenView] = []
+        for panel in panels():
+            with pendant.layout.left.add_tab(pendant.t(f"{panel.key}.title")):
+                self._views.append(panel.build(pendant))
+        tabs = pendant.client.gui.add_tab_group()
+        for screen in screens():
+            with tabs.add_tab(pendant.t(f"{screen.key}.title")):
+                self._views.append(screen.build(pendant))
+
+    def refresh(self, state: SessionState) -> None:
+        """The session changed."""
+        for view in self._views:
+            view.refresh(state)
+        self.numbers()
+
+    def numbers(self) -> None:
+        """The arm moved."""
+        for view in self._views:
+            numbers = getattr(view, "numbers", None)
+            if numbers is not None:
+                numbers()
+        self._status()
+
+    def close(self) -> None:
+        """The page goes away."""
+        for view in self._views:
+            view.close()
+        self._views = []
+
+    def _status(self) -> None:
+        pendant, t = self._pendant, self._pendant.t
+        state = pendant.session.state
+        distance = pendant.world.distance(pendant.q)
+        touching = distance <= pendant.world.contact_distance
+        far = t("status.touching") if touching else t("status.distance", mm=f"{mm(distance):.1f}")
+        moving = pendant.worker.running("move")
+        tool = state.tool
+        items = [
+            html.item(
+                t("status.moving" if moving else "status.standing"),
+                colour="yellow" if moving else "green",
+                strong=True,
+            ),
+            html.item(pendant.model.title, testid="status-robot"),
+            html.item(
+                t("status.tool", name=tool.name) if tool else t("status.no_tool"), testid="status-tool"
+            ),
+            html.item(
+                t("status.points", done=len(state.steps) - len(state.missing), all=len(state.steps)),
+                testid="status-points",
+            ),
+            html.item(far, testid="status-touch", colour="green" if touching else "grey"),
+        ]
+        pendant.layout.status("".join(items))

@@ -1,0 +1,59 @@
+"""Where to look from."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+import viser
+
+from app.simulation.world import World
+
+View = tuple[np.ndarray, np.ndarray]  # where the eye is, what it looks at [m]
+
+_FIELD = 0.75  # vertical field of view [rad]: narrow, so that straight things look straight
+
+
+def _sizes(world: World) -> tuple[float, np.ndarray, np.ndarray]:
+    reach = float(world.robot.description.get("reach_m", world.robot.reach))
+    ahead = np.array([*world.p_base_spike[:2], 0.0])
+    ahead = ahead / max(float(np.linalg.norm(ahead)), 1e-9)
+    return reach, ahead, np.array([-ahead[1], ahead[0], 0.0])
+
+
+def whole(world: World) -> View:
+    """The whole cell, from before the arm's right shoulder."""
+    reach, ahead, left = _sizes(world)
+    centre = 0.36 * reach * ahead + np.array([0.0, 0.0, 0.40 * reach])
+    return centre + reach * (1.05 * ahead - 2.15 * left + np.array([0.0, 0.0, 0.62])), centre
+
+
+def side(world: World) -> View:
+    """Square from the side, at the height of the spike."""
+    reach, _, left = _sizes(world)
+    return world.p_base_spike - 0.42 * reach * left, world.p_base_spike
+
+
+def front(world: World) -> View:
+    """Square to the side view, from beyond the spike."""
+    reach, ahead, _ = _sizes(world)
+    return world.p_base_spike + 0.42 * reach * ahead, world.p_base_spike
+
+
+def close(world: World) -> View:
+    """The tip and the spike from near by."""
+    reach, ahead, left = _sizes(world)
+    offset = 0.20 * reach * (0.75 * ahead - left + np.array([0.0, 0.0, 0.45]))
+    return world.p_base_spike + offset, world.p_base_spike
+
+
+VIEWS: dict[str, Callable[[World], View]] = {"whole": whole, "side": side, "front": front, "close": close}
+
+
+def look(camera: viser.CameraHandle, view: View) -> None:
+    """Puts the eye there."""
+    eye, centre = view
+    camera.fov = _FIELD
+    camera.up_direction = (0.0, 0.0, 1.0)
+    camera.position = tuple(eye)
+    camera.look_at = tuple(centre)

@@ -1,0 +1,46 @@
+"""The table and the spike on it."""
+
+from __future__ import annotations
+
+import numpy as np
+import viser
+
+from app.kinematics.shapes import Shape, box, rod
+from app.pendant.arm import draw_shapes
+from app.simulation.world import World
+from app.units import from_mm
+
+_STEEL, _DARK, _TOP, _LEG = (0.74, 0.76, 0.79), (0.20, 0.22, 0.25), (0.55, 0.60, 0.66), (0.36, 0.39, 0.43)
+_CONE = from_mm(60.0)  # length of the sharpened end
+_ROD = from_mm(9.0)  # radius of the rod it is the end of
+_FOOT = from_mm(45.0)
+_PLATE = from_mm(40.0)  # thickness of the table's top
+_EDGE = from_mm(620.0)
+
+
+def cell_shapes(world: World) -> tuple[Shape, ...]:
+    """Table with four legs, and a spike that stands on it."""
+    spike, top = world.p_base_spike, world.table_height
+    x, y = float(spike[0]), float(spike[1])
+    foot = np.array([x, y, top])
+    shapes = [
+        box((_EDGE, _EDGE, _PLATE), (x, y, top - _PLATE / 2), link="table", colour=_TOP),
+        rod(foot, foot + _up(from_mm(14.0)), _FOOT, link="spike foot", colour=_DARK),
+        rod(foot, spike - _up(_CONE), _ROD, link="spike", colour=_DARK),
+        rod(spike - _up(_CONE), spike, _ROD, 0.0, link="spike tip", colour=_STEEL),
+    ]
+    reach = _EDGE / 2 - from_mm(35.0)
+    for side in (-1, 1):
+        for end in (-1, 1):
+            leg = np.array([x + side * reach, y + end * reach, 0.0])
+            shapes.append(rod(leg, leg + _up(top - _PLATE), from_mm(22.0), link="table leg", colour=_LEG))
+    return tuple(shapes)
+
+
+def _up(height: float) -> np.ndarray:
+    return np.array([0.0, 0.0, height])
+
+
+def draw_cell(scene: viser.SceneApi, world: World) -> None:
+    """Draws the cell, in place of the one before."""
+    draw_shapes(scene, "/cell", cell_shapes(world))

@@ -1,0 +1,40 @@
+"""Floor, light and background, for light and dark pages."""
+
+from __future__ import annotations
+
+import viser
+
+Colour = tuple[int, int, int]
+
+#: Dark page or not -> plane, cells, sections.
+_FLOORS: dict[bool, tuple[Colour, Colour, Colour]] = {
+    False: ((238, 240, 243), (220, 224, 229), (198, 204, 211)),
+    True: ((38, 41, 46), (54, 58, 64), (74, 79, 87)),
+}
+
+
+def light_up(scene: viser.SceneApi) -> None:
+    """Lights without shadows: a page without a graphics card stays smooth."""
+    scene.configure_default_lights(cast_shadow=False)
+    scene.configure_environment_map(hdri=None)
+    scene.add_light_ambient("/lights/ambient", intensity=0.55)
+
+
+def lay_floor(scene: viser.SceneApi, *, dark: bool) -> None:
+    """A square floor with a quarter-metre grid."""
+    plane, cells, sections = _FLOORS[dark]
+    scene.add_grid(
+        "/floor",
+        width=6.0,
+        height=6.0,
+        cell_size=0.25,
+        section_size=1.0,
+        plane_opacity=1.0,
+        position=(0.0, 0.0, -0.002),
+        shadow_opacity=0.0,
+        fade_distance=12.0,
+        fade_strength=2.0,
+        plane_color=plane,
+        cell_color=cells,
+        section_color=sections,
+    )

@@ -1,0 +1,58 @@
+"""What each touch missed the fitted point by, as arrows from that point, magnified."""
+
+from __future__ import annotations
+
+import numpy as np
+import viser
+
+from app.calibration.result import ToolCalibration
+from app.units import from_mm, mm
+
+_LONGEST = from_mm(140.0)  # the longest arrow may be this long
+_FACTORS = (1, 2, 5, 10, 20, 50, 100, 200, 500, 1_000, 2_000, 5_000, 10_000)
+_ORANGE = (230, 73, 128)
+
+
+def magnification(result: ToolCalibration) -> int:
+    """The round factor that makes the longest residual clearly visible."""
+    fits = [factor for factor in _FACTORS if factor * result.max <= _LONGEST]
+    return fits[-1] if fits else 1
+
+
+class Residuals:
+    """Arrows and their numbers."""
+
+    def __init__(self, scene: viser.SceneApi):
+        self._scene = scene
+        self._handles: list[viser.SceneNodeHandle] = []
+
+    def show(self, result: ToolCalibration | None) -> None:
+        """Draws the residuals of a result, or nothing."""
+        for handle in self._handles:
+            handle.remove()
+        self._handles = []
+        if result is None or not len(result.residual_vectors):
+            return
+        start = np.broadcast_to(result.p_base, result.residual_vectors.shape)
+        ends = start + magnification(result) * result.residual_vectors
+        self._handles.append(
+            self._scene.add_arrows(
+                "/residuals/arrows",
+                np.stack([start, ends], axis=1).astype(np.float32),
+                _ORANGE,
+                shaft_radius=from_mm(2.2),
+                head_radius=from_mm(6.0),
+                head_length=from_mm(16.0),
+            )
+        )
+        for number, (end, miss) in enumerate(zip(ends, result.per_point, strict=True)):
+            row = result.rows[number] if number < len(result.rows) else number + 1
+            self._handles.append(
+                self._scene.add_label(
+                    f"/residuals/label{number}",
+                    f"{row}: {mm(float(miss)):.2f} mm",
+                    position=tuple(end),
+                    font_screen_scale=0.8,
+                    anchor="center-left",
+                )
+            )

@@ -1,0 +1,115 @@
+"""A tool calibration as a piece of page: light, numbers with their uncertainty, each touch, remarks."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from app.calibration.solving import Solved
+from app.geometry import CONVENTIONS
+from app.pendant import html
+from app.pendant.scene.residuals import magnification
+from app.session import SessionState
+from app.units import deg, mm
+
+if TYPE_CHECKING:
+    from app.pendant.client import Pendant
+
+
+def result_html(pendant: Pendant, state: SessionState, solved: Solved) -> str:
+    """Everything about one result."""
+    parts = [
+        html.light(solved.light.colour, f"{solved.light.reason}. {solved.light.action}."),
+        _tool(pendant, solved),
+        _figures(pendant, solved),
+        _touches(pendant, solved),
+        html.notes(_remarks(pendant, solved)),
+    ]
+    return "".join(parts)
+
+
+def _tool(pendant: Pendant, solved: Solved) -> str:
+    t, result = pendant.t, solved.result
+    point, sigma = mm(result.tool_point), mm(result.sigma_tool)
+    rows = [
+        (axis, f"{value:.3f}", f"± {error:.3f}" if np.isfinite(error) else "?")
+        for axis, value, error in zip("xyz", point, sigma, strict=True)
+    ]
+    form = CONVENTIONS[pendant.convention]
+    numbers = form.from_rotation(result.T_flange_tool.rotation)
+    shown = (
+        [f"{v + 0.0:.2f}°" for v in np.round(deg(numbers), 2)]
+        if form.angular
+        else [f"{v:.5f}" for v in numbers]
+    )
+    names = " ".join(c.upper() if form.angular else c for c in form.columns)
+    out = html.table(
+        rows, head=(t("result.axis"), t("result.value"), t("result.sigma")), testid="tool-point"
+    ) + html.table([(names, "  ".join(shown))], testid="tool-angles")
+    for cone in result.cones:
+        out += html.paragraph(
+            t(
+                "result.cone",
+                axis=cone.axis.upper(),
+                mm=f"{mm(cone.stroke):.0f}",
+                deg=f"{deg(cone.half_angle):.2f}",
+            ),
+            faint=True,
+        )
+    return out
+
+
+def _figures(pendant: Pendant, solved: Solved) -> str:
+    t, result = pendant.t, solved.result
+    if not len(result.residual_vectors):
+        return ""
+    length = lambda value: t("result.mm", value=f"{mm(value):.3f}")  # noqa: E731
+    rows = [
+        (t("result.mean"), length(result.mean)),
+        (t("result.max", touch=result.worst + 1), length(result.max)),
+        (t("result.noise"), length(result.sigma) if result.dof > 0 else "?"),
+        (t("result.delta"), t("result.mm", value=f"{mm(result.delta):.5f}")),
+        (t("result.condition"), f"{result.condition:.2f}"),
+    ]
+    return html.table(rows, testid="figures", widths=("68%", "32%"))
+
+
+def _touches(pendant: Pendant, solved: Solved) -> str:
+    t, result = pendant.t, solved.result
+    if not len(result.residual_vectors):
+        return ""
+    left = {entry.index: entry for entry in solved.left_out}
+    rows = [
+        (
+            str(i + 1),
+            f"{mm(float(miss)):.3f}",
+            f"{mm(left[i].shift):.2f} mm" if i in left else "-",
+        )
+        for i, miss in enumerate(result.per_point)
+    ]
+    return html.table(
+        rows, head=(t("result.touch"), t("result.miss"), t("result.shift")), testid="touches"
+    ) + html.paragraph(t("result.arrows", factor=magnification(result)), faint=True, testid="arrows")
+
+
+def _remarks(pendant: Pendant, solved: Solved) -> list[tuple[str, str]]:
+    """Warnings first, then what the written digits explain."""
+    t, result, effect = pendant.t, solved.result, solved.rounding
+    out = [("red" if w.severe else "yellow", str(w)) for w in result.warnings]
+    sigma = mm(effect.sigma_tool)
+    if len(result.residual_vectors) and sigma.max() >= 5e-4:
+        x, y, z = (f"{v:.2f}" for v in sigma)
+        out.append(("blue", t("result.rounding", x=x, y=y, z=z, columns=", ".join(effect.columns[:3]))))
+        if result.sigma > 0:
+            share = effect.touch / result.sigma
+            fields = {"touch": f"{mm(effect.touch):.3f}", "found": f"{mm(result.sigma):.3f}"}
+            key = "result.rounding_all" if share > 0.8 else "result.rounding_part"
+            out.append(("blue", t(key, share=f"{100 * min(share**2, 1.0):.0f}", **fields)))
+    for gap in solved.gaps:
+        key = {"rounding": "gap_rounding", "touch noise": "gap_noise"}.get(gap.explained_by, "gap_nothing")
+        x, y, z = (f"{v:+.3f}" for v in mm(gap.gap))
+        most = float(np.max(np.abs(gap.sigmas)))
+        words = t(f"result.{key}", name=gap.name.replace("_", " "), x=x, y=y, z=z, most=f"{most:.1f}")
+        out.append(("red" if key == "gap_nothing" else "blue", words))
+    return out

@@ -1,0 +1,112 @@
+"""The pendant's server: each browser gets its own session, and gets it back after a reload."""
+
+from __future__ import annotations
+
+import contextlib
+import gc
+import io
+import logging
+import threading
+import time
+from collections.abc import Callable
+
+import viser
+
+from app.kinematics import RobotModel
+from app.pendant.client import Pendant
+from app.pendant.hub import Hub
+from app.session import Store
+from app.simulation.world import World, default_world
+
+_TOKEN = "teachframe.session"
+_ANSWER_WITHIN = 10.0  # seconds a browser has to say which session is its own
+_LOG = logging.getLogger(__name__)
+
+
+class PendantServer:
+    """Serves the pendant until it is stopped.
+
+    Args:
+        store: where sessions are kept.
+        host, port: where to listen; port 0 takes any free one.
+        robot: arm of new sessions; None takes the usual one.
+        world_of: the cell of an arm.
+    """
+
+    def __init__(
+        self,
+        store: Store,
+        *,
+        host: str = "127.0.0.1",
+        port: int = 8080,
+        robot: str | None = None,
+        world_of: Callable[[RobotModel], World] = default_world,
+    ):
+        self.hub = Hub(store, robot)
+        self._host, self._world_of = host, world_of
+        self._pendants: dict[int, Pendant] = {}
+        self._lock = threading.Lock()
+        with contextlib.redirect_stdout(io.StringIO()):  # its own banner would stand before our address
+            self._viser = viser.ViserServer(host=host, port=port, label="Teachframe", verbose=False)
+        self._viser.scene.world_axes.visible = False
+        self._viser.gui.configure_theme(show_share_button=False, show_logo=False)
+        self._viser.on_client_connect(self._connected)
+        self._viser.on_client_disconnect(self._gone)
+
+    @property
+    def port(self) -> int:
+        """Where it really listens."""
+        return self._viser.get_port()
+
+    @property
+    def address(self) -> str:
+        """What to open in a browser."""
+        host = "127.0.0.1" if self._host in ("0.0.0.0", "") else self._host
+        return f"http://{host}:{self.port}"
+
+    @property
+    def pendants(self) -> list[Pendant]:
+        """The views of all connected browsers."""
+        with self._lock:
+            return list(self._pendants.values())
+
+    def wait(self) -> None:
+        """Serves until somebody interrupts."""
+        while True:
+            time.sleep(3600.0)
+
+    def stop(self) -> None:
+        """Closes every session and stops listening."""
+        for pendant in self.pendants:
+            pendant.close()
+            self.hub.leave(pendant.session.name, pendant)
+        self._viser.stop()
+
+    def _connected(self, client: viser.ClientHandle) -> None:
+        """Runs on a thread of viser's pool, because asking the browser for its token waits for the answer."""
+        try:
+            token = client.local_storage.get_item(_TOKEN, timeout=_ANSWER_WITHIN)
+        except (RuntimeError, TimeoutError):  # gone again, or its storage is shut: then without a token
+            token = None
+        session, how = self.hub.enter(token)
+        if session.name != token:
+            client.local_storage.set_item(_TOKEN, session.name)
+        pendant = Pendant(client, session, self._world_of)
+        with self._lock:
+            self._pendants[client.client_id] = pendant
+        self.hub.show(session.name, pendant)
+        pendant.greet(how)
+        if client.client_id not in self._viser.get_clients():  # left while the page was made
+            self._gone(client)
+
+    def _gone(self, client: viser.ClientHandle) -> None:
+        with self._lock:
+            pendant = self._pendants.pop(client.client_id, None)
+        if pendant is None:
+            return
+        try:
+            pendant.close()
+        finally:
+            self.hub.leave(pendant.session.name, pendant)
+        del pendant
+        gc.collect()  # viser's handles hold each other in rings

@@ -1,0 +1,77 @@
+"""Everything drawn in the cell of one browser."""
+
+from __future__ import annotations
+
+import numpy as np
+import viser
+
+from app.pendant.arm import ArmView, draw_shapes, pointer_shapes
+from app.pendant.scene.camera import VIEWS, look
+from app.pendant.scene.cell import draw_cell
+from app.pendant.scene.ground import lay_floor, light_up
+from app.pendant.scene.handle import Dragged, Handle
+from app.pendant.scene.marks import Marks
+from app.pendant.scene.residuals import Residuals
+from app.pendant.scene.tool_axes import ToolAxes
+from app.session import SessionState
+from app.simulation.world import World
+
+_HANDLE = 0.16  # size of the handle, as a share of the reach
+
+
+class Stage:
+    """Arm, tool, cell, handle and marks.
+
+    Args:
+        client: the browser.
+        world: the cell.
+        dragged: what a drag at the handle calls, on the event loop.
+        dark: dark page or light.
+    """
+
+    def __init__(self, client: viser.ClientHandle, world: World, dragged: Dragged, *, dark: bool):
+        self._client, self._scene = client, client.scene
+        self._world = world
+        light_up(self._scene)
+        self.floor(dark)
+        draw_cell(self._scene, world)
+        self.arm = ArmView(self._scene, world.robot)
+        if "tool" not in world.robot.description:
+            draw_shapes(
+                self._scene, f"{self.arm.flange_path}/pointer", pointer_shapes(world.T_flange_tool_true)
+            )
+        reach = float(world.robot.description.get("reach_m", world.robot.reach))
+        self.handle = Handle(self._scene, dragged, _HANDLE * reach)
+        self.marks = Marks(self._scene)
+        self.residuals = Residuals(self._scene)
+        self.axes = ToolAxes(self._scene, self.arm.flange_path)
+        self.show_marks, self.show_residuals = True, True
+        self._drawn: tuple[object, ...] = ()
+        self.view("whole")
+
+    def floor(self, dark: bool) -> None:
+        """The floor for a dark or a light page."""
+        lay_floor(self._scene, dark=dark)
+
+    def view(self, name: str) -> None:
+        """Looks from one of the named places."""
+        look(self._client.camera, VIEWS[name](self._world))
+
+    def pose(self, q: np.ndarray, world: World) -> None:
+        """The arm at q (n,), the handle at its tool."""
+        self.arm.set(q)
+        self.handle.place(world.tip(q))
+
+    def refresh(self, state: SessionState) -> None:
+        """Marks, residuals and axes, where they changed."""
+        result = state.result.result if state.result else None
+        wanted = (state.captures, result, state.tool, self.show_marks, self.show_residuals)
+        if len(self._drawn) == len(wanted) and all(a is b for a, b in zip(self._drawn, wanted, strict=True)):
+            return
+        self._drawn = wanted
+        self.marks.show(state.ordered if self.show_marks else ())
+        self.residuals.show(result if self.show_residuals else None)
+        tool = (
+            result.T_flange_tool if result is not None else state.tool.T_flange_tool if state.tool else None
+        )
+        self.axes.show(tool)

@@ -1,0 +1,143 @@
+"""One worker a session: everything that changes a pendant happens on its thread, in order.
+
+A browser's callbacks only put work in: clicks first-in-first-out, poses and sliders latest-wins. What fails is
+told to the operator; it never ends the worker.
+"""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections import deque
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+Job = Callable[[], None]
+
+#: Ticks a second of motions that run by themselves.
+TICK_HZ = 30.0
+
+
+@dataclass
+class _Entry:
+    job: Job
+    slot: str | None  # None: a click, always done
+
+
+class Worker:
+    """A thread with a queue and, beside it, motions that run by themselves.
+
+    Args:
+        name: for the thread.
+        around: called with every job; does it, and tells the operator what failed.
+    """
+
+    def __init__(self, name: str, around: Callable[[Job], None]):
+        self._around = around
+        self._queue: deque[_Entry] = deque()
+        self._motions: dict[str, Iterator[None]] = {}
+        self._wake = threading.Condition()
+        self._stopped = False
+        self._busy = False
+        self._thread = threading.Thread(target=self._run, name=name, daemon=True)
+        self._thread.start()
+
+    def post(self, job: Job) -> None:
+        """Does `job` after everything put in before."""
+        self._put(_Entry(job, None))
+
+    def latest(self, slot: str, job: Job) -> None:
+        """Like `post`, but replaces what waits under the same slot unless a click came in between."""
+        self._put(_Entry(job, slot))
+
+    def _put(self, entry: _Entry) -> None:
+        with self._wake:
+            if entry.slot is not None:
+                for waiting in reversed(self._queue):
+                    if waiting.slot is None:
+                        break
+                    if waiting.slot == entry.slot:
+                        waiting.job = entry.job
+                        return
+            self._queue.append(entry)
+            self._wake.notify()
+
+    def animate(self, name: str, steps: Iterator[None]) -> None:
+        """Runs a motion tick by tick beside the queue; another one of the same name replaces it.
+
+        Only for jobs: call it on the worker's own thread.
+        """
+        with self._wake:
+            self._motions[name] = steps
+            self._wake.notify()
+
+    def halt(self, name: str | None = None) -> None:
+        """Ends one motion, or all."""
+        with self._wake:
+            for key in [name] if name is not None else list(self._motions):
+                self._motions.pop(key, None)
+
+    def running(self, name: str) -> bool:
+        """True while the motion of this name runs."""
+        return name in self._motions
+
+    def idle(self, timeout: float = 10.0) -> bool:
+        """Waits until nothing is waiting, being done or moving; False where it took longer."""
+        end = time.monotonic() + timeout
+        while time.monotonic() < end:
+            with self._wake:
+                if not self._queue and not self._busy and not self._motions:
+                    return True
+            time.sleep(0.005)
+        return False
+
+    def stop(self) -> None:
+        """Ends the thread after the job it is doing; what still waits is dropped."""
+        with self._wake:
+            self._stopped = True
+            self._queue.clear()
+            self._motions.clear()
+            self._wake.notify()
+        if threading.current_thread() is not self._thread:
+            self._thread.join(timeout=5.0)
+
+    def _run(self) -> None:
+        next_tick = time.monotonic()
+        while True:
+            with self._wake:
+                while not self._queue and not self._stopped:
+                    if self._motions:
+                        wait = next_tick - time.monotonic()
+                        if wait <= 0:
+                            break
+                        self._wake.wait(wait)
+                    else:
+                        self._wake.wait()
+                if self._stopped:
+                    return
+                job = self._queue.popleft().job if self._queue else None
+                self._busy = True
+            if job is not None:
+                self._around(job)
+            now = time.monotonic()
+            if self._motions and now >= next_tick:
+                for name, steps in list(self._motions.items()):
+                    self._around(lambda name=name, steps=steps: self._advance(name, steps))
+                next_tick = max(next_tick + 1.0 / TICK_HZ, now)
+            with self._wake:
+                self._busy = False
+
+    def _advance(self, name: str, steps: Iterator[None]) -> None:
+        try:
+            next(steps)
+        except StopIteration:
+            self._end(name, steps)
+        except Exception:
+            self._end(name, steps)
+            raise
+
+    def _end(self, name: str, steps: Iterator[None]) -> None:
+        """Forgets a motion unless another has taken its name meanwhile."""
+        with self._wake:
+            if self._motions.get(name) is steps:
+                del self._motions[name]
