@@ -116,6 +116,8 @@ class Evidence:
         flange_tool: (3,) fitted tool point in the flange [m]; static only.
         kept: (m,) False for rows set aside as outliers.
         t: (m,) time of each sample [s]; None where the recording has none.
+        vectors_before: (m, 3) residual of the first point in base, from points_predicted_before [m]; static only.
+        vectors_after: (m, 3) likewise with the findings in the model [m].
     """
 
     rows: np.ndarray
@@ -133,6 +135,8 @@ class Evidence:
     points_measured: np.ndarray | None = None
     flange_tool: np.ndarray | None = None
     t: np.ndarray | None = None
+    vectors_before: np.ndarray | None = None
+    vectors_after: np.ndarray | None = None
 
 
 @dataclass(frozen=True, eq=False)

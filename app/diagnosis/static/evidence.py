@@ -42,6 +42,8 @@ def evidence_of(recording: StaticRecording, outcome) -> Evidence:
         points_predicted_after=after.posed.points[:, 0],
         points_measured=measured_base,
         flange_tool=after.setup.tools[first, 0],
+        vectors_before=_vectors(recording, before),
+        vectors_after=_vectors(recording, after),
     )
 
 
@@ -52,6 +54,16 @@ def _everywhere(recording: StaticRecording, fitted: Fitted) -> Fitted:
     return fit(
         recording, fitted.setup, fitted.terms, starting_weights(recording), held=fitted.held, iterations=0
     )
+
+
+def _vectors(recording: StaticRecording, fitted: Fitted) -> np.ndarray:
+    """(m, 3) residual of the first point (a wire's: along the wire), turned into base [m]."""
+    setup = fitted.setup
+    if recording.mode == "length":
+        points = fitted.posed.points[:, 0] + setup.positions[recording.session]
+        return points / np.linalg.norm(points, axis=1, keepdims=True) * fitted.residual[:, :1]
+    rotation = setup.rotations[recording.session]
+    return np.einsum("mji,mj->mi", rotation, fitted.residual[:, :3])
 
 
 def _measured_in_base(recording: StaticRecording, fitted: Fitted) -> np.ndarray:
