@@ -1,0 +1,109 @@
+"""The spike moved or the tip bent between two touches, or one touch missed.
+
+Compared with "nothing happened": the spike stands elsewhere from touch k on (3 numbers), the tip is bent from touch k
+on (3), one touch missed (3). The best of them is reported where it is better than chance would make the best of that
+many, by the F test with Bonferroni's correction.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from scipy import special
+
+from app.calibration.captures import Capture, of_role, stack
+from app.calibration.result import ToolCalibration, Warning_
+from app.units import from_mm, mm
+
+RARE = 0.01
+#: Changes below this are not worth a word, however certain [m].
+LEAST = from_mm(0.3)
+_ROUNDING = 1e-7
+
+
+@dataclass(frozen=True)
+class _Story:
+    kind: str
+    touch: int  # counted from 0: the first touch that is different
+    sse: float
+    size: float
+
+
+@dataclass(frozen=True)
+class Bumped:
+    key: str = "bumped"
+
+    def look(
+        self, result: ToolCalibration, captures: Sequence[Capture], context: dict[str, Any]
+    ) -> list[Warning_]:
+        rotations, positions = stack(of_role(captures, "touch"))
+        n = len(positions)
+        if n < 4 or any("known" in c.roles for c in captures):
+            return []
+        base = np.concatenate([rotations, -np.broadcast_to(np.eye(3), (n, 3, 3))], axis=2)
+        before = _sse(base, positions)[0]
+        if before < 3 * n * _ROUNDING**2:
+            return []
+        stories = _stories(base, rotations, positions)
+        best = min(stories, key=lambda story: story.sse)
+        dof = 3 * n - 9
+        ratio = (before - best.sse) / 3.0 / max(best.sse / dof, 1e-24)
+        chance = float(special.fdtrc(3, dof, ratio)) * len(stories)
+        if chance > RARE or best.size < LEAST:
+            return []
+        near = {s.kind for s in stories if s.touch == best.touch and s.sse < 2.0 * best.sse + _ROUNDING**2}
+        return [self._say(best, near | {best.kind}, n)]
+
+    def _say(self, best: _Story, kinds: set[str], n: int) -> Warning_:
+        number, size = best.touch + 1, mm(best.size)
+        if best.kind == "missed":
+            return Warning_(
+                self.key,
+                f"touch {number} lies {size:.2f} mm off the point that the others agree on",
+                f"the spike or the tip was bumped at touch {number}, or it missed: record it again",
+                severe=True,
+            )
+        what = {
+            frozenset({"spike"}): f"the spike moved by {size:.2f} mm",
+            frozenset({"tip"}): f"the tip bent by {size:.2f} mm",
+        }.get(frozenset(kinds - {"missed"}), f"the spike moved or the tip bent, by about {size:.2f} mm")
+        again = f"touches {number} to {n}" if number < n else f"touch {number}"
+        return Warning_(
+            self.key,
+            f"from touch {number} on something is different: {what}",
+            f"check spike and tip, then record touches 1 to {number - 1} again, or {again}",
+            severe=True,
+        )
+
+
+CHECK = Bumped()
+
+
+def _sse(matrix: np.ndarray, positions: np.ndarray) -> tuple[float, np.ndarray]:
+    tall = matrix.reshape(-1, matrix.shape[2])
+    solution = np.linalg.lstsq(tall, -positions.reshape(-1), rcond=1e-9)[0]
+    residual = tall @ solution + positions.reshape(-1)
+    return float(residual @ residual), solution
+
+
+def _stories(base: np.ndarray, rotations: np.ndarray, positions: np.ndarray) -> list[_Story]:
+    """Every change of three numbers that these touches could tell."""
+    n = len(positions)
+    found = []
+
+    def add(kind: str, touch: int, members: range | list[int], blocks: np.ndarray) -> None:
+        columns = np.zeros((n, 3, 3))
+        columns[members] = blocks[members]
+        sse, solution = _sse(np.concatenate([base, columns], axis=2), positions)
+        found.append(_Story(kind, touch, sse, float(np.linalg.norm(solution[6:]))))
+
+    eye = np.broadcast_to(np.eye(3), (n, 3, 3))
+    for j in range(n):
+        add("missed", j, [j], eye)
+    for k in range(2, n - 1):  # two touches at least on either side: else it is one that missed
+        add("spike", k, range(k, n), eye)
+        add("tip", k, range(k, n), rotations)
+    return found

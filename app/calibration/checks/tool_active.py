@@ -1,0 +1,77 @@
+"""A tool was still active while teaching: the controller showed its tip, not the flange."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from app.calibration.captures import Capture, of_role
+from app.calibration.points import ANGLE_TOLERANCE, POSITION_TOLERANCE, Points
+from app.calibration.result import ToolCalibration, Warning_
+from app.geometry import angle_between
+from app.units import from_mm, mm
+
+#: Tools shorter than this are suspicious: the "flange" hardly moved although it turned [m].
+SHORT = from_mm(10.0)
+_ADVICE = "choose tool 0 (the flange) on the controller and record again"
+
+
+@dataclass(frozen=True)
+class ToolActive:
+    key: str = "tool_active"
+
+    def look(
+        self, result: ToolCalibration, captures: Sequence[Capture], context: dict[str, Any]
+    ) -> list[Warning_]:
+        active = context.get("tool_active")
+        if active:
+            name = f" ({active})" if isinstance(active, str) else ""
+            return [Warning_(self.key, f"a tool{name} was active while teaching", _ADVICE, severe=True)]
+        offset = constant_offset(context.get("points"))
+        if offset is not None and np.linalg.norm(offset) > POSITION_TOLERANCE:
+            text = ", ".join(f"{v:.1f}" for v in mm(offset))
+            return [
+                Warning_(
+                    self.key,
+                    f"the poses in the file are not the flange's: against the joints they are off by the same tool, "
+                    f"({text}) mm, in every row",
+                    _ADVICE,
+                    severe=True,
+                )
+            ]
+        length = float(np.linalg.norm(result.tool_point))
+        if of_role(captures, "touch") and length < SHORT:
+            return [
+                Warning_(
+                    self.key,
+                    f"the tool comes out {mm(length):.1f} mm long: the recorded poses turn about the tip itself, "
+                    "as they do when a tool is active",
+                    _ADVICE,
+                    severe=True,
+                )
+            ]
+        return []
+
+
+def constant_offset(points: Points | None) -> np.ndarray | None:
+    """(3,) the tool that lies between joints and poses in every row alike [m]; None where there is no such tool."""
+    if points is None or points.disagreement is None or points.robot is None or len(points.captures) < 2:
+        return None
+    if not (points.disagreement[:, 0] > POSITION_TOLERANCE).any():
+        return None
+    offsets = []
+    for capture in points.captures:
+        assert capture.q is not None
+        offsets.append(points.robot.forward(capture.q).inverse().matrix @ capture.T_base_flange.matrix)
+    matrices = np.array(offsets)
+    spread = np.linalg.norm(matrices[:, :3, 3] - matrices[0, :3, 3], axis=1).max()
+    turn = np.max(angle_between(matrices[:1, :3, :3], matrices[:, :3, :3]))
+    if spread > POSITION_TOLERANCE or turn > ANGLE_TOLERANCE:
+        return None
+    return matrices[:, :3, 3].mean(axis=0)
+
+
+CHECK = ToolActive()
