@@ -144,6 +144,8 @@ class _Problem:
     def jacobian(self, lever: np.ndarray) -> np.ndarray:
         """(6, n) of the weighted error's fall, at the pose `error` was last asked for."""
         jacobian = pin.getFrameJacobian(self.model, self.data, self.flange, pin.LOCAL_WORLD_ALIGNED)
+        if jacobian.ndim == 1:  # of a single joint pin gives a plain vector
+            jacobian = jacobian[:, None]
         x, y, z = lever.tolist()
         turn = np.array([[0.0, z, -y], [-z, 0.0, x], [y, -x, 0.0]])  # w -> w x lever
         jacobian[:3] += turn.dot(jacobian[3:])

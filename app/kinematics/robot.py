@@ -111,9 +111,10 @@ class RobotModel:
 
     def jacobian(self, q: np.ndarray) -> np.ndarray:
         """(6, n) of the flange's origin, axes of base: rows 0-2 m/rad, rows 3-5 rad/rad; q (n,)."""
-        return pin.computeFrameJacobian(
+        jacobian = pin.computeFrameJacobian(
             self.model, self.data, np.asarray(q, float), self.flange_id, pin.LOCAL_WORLD_ALIGNED
         )
+        return jacobian.reshape(6, -1)  # of a single joint pin gives a plain vector
 
     def gravity_torques(self, q: np.ndarray) -> np.ndarray:
         """Torque each joint must give to hold the arm; (m, n) or (n,) -> the same shape [Nm or N]."""
@@ -170,7 +171,7 @@ class RobotModel:
         data = model.createData()
         pin.computeJointJacobians(model, data, zero)
         for k, i in enumerate(ids):
-            column = pin.getJointJacobian(model, data, i, pin.LOCAL)[:, model.joints[i].idx_v]
+            column = pin.getJointJacobian(model, data, i, pin.LOCAL).reshape(6, -1)[:, model.joints[i].idx_v]
             axes[k] = column[:3] if self.joints[k].prismatic else column[3:]
         return Chain(
             rotations=np.array([p.rotation for p in placements]),

@@ -32,7 +32,8 @@ class Shape:
     Args:
         body: 0 the base, k what joint k moves.
         link: name of the link it belongs to, for messages.
-        kind: "box" (size: edges x, y, z), "cylinder" (radius, length, radius at +Z), "sphere" (radius) [m].
+        kind: "box" (size: edges x, y, z), "cylinder" (radius, length, radius at +Z), "sphere" (radius) [m],
+            "halfspace" (no size: everything below its own XY plane; only for collision).
         size: as the kind says.
         T_body_shape: where it sits.
         colour: red, green, blue, each 0..1.
@@ -72,6 +73,11 @@ def rod(start, end, radius: float, end_radius: float | None = None, *, link: str
 def ball(centre, radius: float, *, link: str = "ball", **others) -> Shape:
     """A sphere."""
     return Shape(0, link, "sphere", (float(radius),), Pose.of(None, np.asarray(centre, float)), **others)
+
+
+def floor(height: float = 0.0, *, link: str = "floor") -> Shape:
+    """Everything below a height [m]: a floor or a table without edges."""
+    return Shape(0, link, "halfspace", (), Pose.of(None, np.array([0.0, 0.0, height])))
 
 
 def read_shapes(path: Path, joint_names: tuple[str, ...]) -> tuple[Shape, ...]:

@@ -69,19 +69,23 @@ def solids(shapes: Sequence[Shape]) -> tuple[Solid, ...]:
     )
 
 
-def outline(shape: Shape) -> np.ndarray:
-    """Points whose convex hull is the shape, edges slightly broken; (k, 3) [m] in the shape's frame."""
+def outline(shape: Shape, chamfer: float = _CHAMFER) -> np.ndarray:
+    """Points whose convex hull is the shape; (k, 3) [m] in the shape's frame.
+
+    Args:
+        chamfer: how much of its smallest extent an edge loses, to look cast rather than cut; 0 is sharp.
+    """
     if shape.kind == "sphere":
         return _sphere_points(shape.size[0])
     if shape.kind == "box":
         half = np.array(shape.size) / 2
-        cut = min(_CHAMFER * 2 * half.min(), _LARGEST_CHAMFER)
+        cut = min(chamfer * 2 * half.min(), _LARGEST_CHAMFER)
         signs = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], float)
         return np.concatenate([signs * (half - cut * (np.arange(3) != axis)) for axis in range(3)])
     bottom, length, top = shape.size
     rings = []
     for radius, z, inwards in ((bottom, -length / 2, 1.0), (top, length / 2, -1.0)):
-        cut = min(_CHAMFER * min(2 * radius, length), _LARGEST_CHAMFER)
+        cut = min(chamfer * min(2 * radius, length), _LARGEST_CHAMFER)
         for r, height in ((radius - cut, z), (radius, z + inwards * cut)):
             rings.append(_ring(max(r, 1e-4), height))
     return np.concatenate(rings)

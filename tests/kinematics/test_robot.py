@@ -20,17 +20,25 @@ SLIDING = """<robot name="gantry">
 </robot>"""
 
 
+SINGLE = """<robot name="turntable">
+  <link name="base"/><link name="tool0"/>
+  <joint name="j1" type="revolute"><origin xyz="0 0.1 0.3" rpy="0 0.5 0"/><parent link="base"/><child link="tool0"/>
+    <axis xyz="0 0 1"/><limit lower="-3" upper="3" velocity="1" effort="1"/></joint>
+</robot>"""
+OWN = {"gantry": SLIDING, "turntable": SINGLE}
+
+
 def poses(robot, count=8, seed=1):
     rng = np.random.default_rng(seed)
     return rng.uniform(np.maximum(robot.lower, -3), np.minimum(robot.upper, 3), (count, robot.joint_count))
 
 
-@pytest.fixture(params=[*robot_names(), "gantry"])
+@pytest.fixture(params=[*robot_names(), *OWN])
 def robot(request, tmp_path):
-    if request.param != "gantry":
+    if request.param not in OWN:
         return load_robot(request.param)
-    path = tmp_path / "gantry.urdf"
-    path.write_text(SLIDING)
+    path = tmp_path / "own.urdf"
+    path.write_text(OWN[request.param])
     return load_robot(path)
 
 
