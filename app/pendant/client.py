@@ -15,7 +15,9 @@ from app.errors import TeachframeError, one_line
 from app.geometry import Pose
 from app.kinematics import IkResult, RobotModel, solve_ik
 from app.pendant import motion
+from app.pendant.dragging import Dragging
 from app.pendant.layout import Layout
+from app.pendant.loaded import with_touched_point
 from app.pendant.page import Page
 from app.pendant.stage import Stage
 from app.pendant.texts import FALLBACK, has_text, text
@@ -45,11 +47,11 @@ class Pendant:
         self.language, self.dark, self.convention = FALLBACK, False, "ZYX"
         self.log: list[tuple[float, str, str]] = []
         self.open = True
-        self._dragging = False
-        self._drag_message = False
+        self.dragging = Dragging(self)
         self._numbers_at = 0.0
         self.q = np.array(session.state.q)
-        self.world = world_of(self.model)
+        self._source: object = None
+        self.world = self._own_world()
         self.rng = np.random.default_rng(abs(hash(session.name)) if session.name else 0)
         self.worker = Worker(f"pendant-{client.client_id}", self._around)
         self.post(self._build)
@@ -109,7 +111,6 @@ class Pendant:
 
     def say(self, level: str, words: str) -> None:
         """The message line, and the log."""
-        self._drag_message = False
         self.log.append((time.time(), level, words))
         del self.log[:-_LOG_LENGTH]
         self.layout.message(level, words)
@@ -121,7 +122,7 @@ class Pendant:
         state = self.session.do(action)
         if state.robot != before.robot:
             self.q = np.array(state.q)
-            self.world = self._world_of(self.model)
+            self.world = self._own_world()
             self.rebuild()
         else:
             self.refresh()
@@ -130,6 +131,7 @@ class Pendant:
     def go(self, q: np.ndarray, then: Job | None = None) -> None:
         """The arm moves to q (n,), visibly; `then` is done at the end."""
         self.worker.animate("move", self._travel([np.asarray(q, float)], lambda _: then() if then else None))
+        self.page.numbers()
 
     def tour(self, stops: list[np.ndarray], arrived: Callable[[int], None], rest: float = 0.5) -> None:
         """The arm goes through poses; `arrived` hears the number of each, and once more -1 at the end."""
@@ -164,8 +166,17 @@ class Pendant:
         state = self.session.state
         if as_tuple(self.q) != state.q:
             self.show(np.array(state.q))
+        if state.source is not self._source:
+            self.world = self._own_world()
+            self.stage.cell(self.world)
         self.stage.refresh(state)
         self.page.refresh(state)
+
+    def _own_world(self) -> World:
+        """The cell of this arm; with points from a file, the spike stands where that file touched it."""
+        world = self._world_of(self.model)
+        self._source = self.session.state.source
+        return world if self._source is None else with_touched_point(world, self.session.state)
 
     def rebuild(self) -> None:
         """Makes the whole page anew: another arm, another language."""
@@ -212,22 +223,18 @@ class Pendant:
         self.post(self._let_go)
 
     def close(self) -> None:
-        """The browser is gone: where the arm stands is written, the worker ends."""
+        """The browser is gone: where the arm stands is written, the worker ends, screens let go."""
         self.open = False
         self.worker.stop()
         if not self.session.closed:
             self.settle()
-        self.page_close()
-
-    def page_close(self) -> None:
-        """Screens let go of what they hold outside of the page."""
         page = getattr(self, "page", None)
         if page is not None:
             page.close()
 
     def _build(self) -> None:
         self.layout = Layout(self.client.gui, dark=self.dark)
-        self.stage = Stage(self.client, self.world, self._dragged, dark=self.dark)
+        self.stage = Stage(self.client, self.world, self.dragging.event, dark=self.dark)
         self.page = Page(self)
         self.show(self.q)
         self.refresh()
@@ -266,31 +273,6 @@ class Pendant:
             self.say("error", self.t("message.fault", what=words))
         self.page.refresh(self.session.state)
 
-    def _dragged(self, phase: str, target: Pose) -> None:
-        """From the handle, on the event loop: only enqueues."""
-        if phase == "end":
-            self.worker.post(lambda: self._drag(target, last=True))
-        else:
-            self.worker.latest("drag", lambda: self._drag(target))
-
-    def _drag(self, target: Pose, *, last: bool = False) -> None:
-        self.worker.halt("move")
-        result = self.solve(target)
-        self.show(result.q)
-        if not result.reached:
-            words = self.why(result)
-            if not self._drag_message:
-                self.say("warning", words)
-            self._drag_message = True
-        elif self._drag_message:
-            self.layout.message("info", "")
-            self._drag_message = False
-        if last:
-            self._drag_message = False
-            self.stage.handle.place(self.world.tip(self.q))
-            self.settle()
-            self.page.numbers()
-
     def _travel(
         self, stops: list[np.ndarray], arrived: Callable[[int], None], rest: float = 0.0
     ) -> Iterator[None]:
@@ -301,7 +283,7 @@ class Pendant:
                 arrived(number)
                 yield from motion.pause(rest)
         self.settle()
-        arrived(-1)
+        self.post(lambda: arrived(-1))  # as a job of its own: by then the motion is over
 
     def _settle_later(self) -> Iterator[None]:
         yield from motion.pause(_SETTLED)

@@ -16,7 +16,7 @@ from app.pendant.scene.tool_axes import ToolAxes
 from app.session import SessionState
 from app.simulation.world import World
 
-_HANDLE = 0.16  # size of the handle, as a share of the reach
+_HANDLE = 0.13  # size of the handle, as a share of the reach
 
 
 class Stage:
@@ -34,7 +34,7 @@ class Stage:
         self._world = world
         light_up(self._scene)
         self.floor(dark)
-        draw_cell(self._scene, world)
+        self.cell(world)
         self.arm = ArmView(self._scene, world.robot)
         if "tool" not in world.robot.description:
             draw_shapes(
@@ -52,6 +52,11 @@ class Stage:
     def floor(self, dark: bool) -> None:
         """The floor for a dark or a light page."""
         lay_floor(self._scene, dark=dark)
+
+    def cell(self, world: World) -> None:
+        """Table and spike of another cell of the same arm."""
+        self._world = world
+        draw_cell(self._scene, world)
 
     def view(self, name: str) -> None:
         """Looks from one of the named places."""

@@ -10,7 +10,7 @@ import viser
 from app.calibration.captures import Capture
 from app.units import from_mm
 
-_LENGTH, _RADIUS = from_mm(70.0), from_mm(2.5)
+_LENGTH, _RADIUS = from_mm(80.0), from_mm(3.5)
 
 
 class Marks:
@@ -37,11 +37,11 @@ class Marks:
                 axes_radius=_RADIUS,
             )
         )
-        for number, (capture, pose) in enumerate(zip(captures, poses, strict=True), 1):
+        for number, pose in enumerate(poses, 1):
             self._handles.append(
                 self._scene.add_label(
                     f"/marks/label{number}",
-                    str(capture.row or number),
+                    str(number),
                     position=tuple(pose.position),
                     font_screen_scale=0.9,
                     anchor="bottom-center",

@@ -8,7 +8,7 @@ import viser
 from app.calibration.result import ToolCalibration
 from app.units import from_mm, mm
 
-_LONGEST = from_mm(140.0)  # the longest arrow may be this long
+_LONGEST = from_mm(300.0)  # the longest arrow may be this long
 _FACTORS = (1, 2, 5, 10, 20, 50, 100, 200, 500, 1_000, 2_000, 5_000, 10_000)
 _ORANGE = (230, 73, 128)
 
@@ -40,17 +40,16 @@ class Residuals:
                 "/residuals/arrows",
                 np.stack([start, ends], axis=1).astype(np.float32),
                 _ORANGE,
-                shaft_radius=from_mm(2.2),
-                head_radius=from_mm(6.0),
-                head_length=from_mm(16.0),
+                shaft_radius=from_mm(3.5),
+                head_radius=from_mm(9.0),
+                head_length=from_mm(24.0),
             )
         )
         for number, (end, miss) in enumerate(zip(ends, result.per_point, strict=True)):
-            row = result.rows[number] if number < len(result.rows) else number + 1
             self._handles.append(
                 self._scene.add_label(
                     f"/residuals/label{number}",
-                    f"{row}: {mm(float(miss)):.2f} mm",
+                    f"{number + 1}: {mm(float(miss)):.2f} mm",
                     position=tuple(end),
                     font_screen_scale=0.8,
                     anchor="center-left",

@@ -10,17 +10,21 @@ from app.calibration.solving import Solved
 from app.geometry import CONVENTIONS
 from app.pendant import html
 from app.pendant.scene.residuals import magnification
-from app.session import SessionState
 from app.units import deg, mm
 
 if TYPE_CHECKING:
     from app.pendant.client import Pendant
 
 
-def result_html(pendant: Pendant, state: SessionState, solved: Solved) -> str:
-    """Everything about one result."""
+def light_html(solved: Solved) -> str:
+    """The traffic light with its reason and what to do next."""
+    reason = solved.light.reason
+    return html.light(solved.light.colour, f"{reason[:1].upper()}{reason[1:]}. {solved.light.action}.")
+
+
+def result_html(pendant: Pendant, solved: Solved) -> str:
+    """Everything else about one result."""
     parts = [
-        html.light(solved.light.colour, f"{solved.light.reason}. {solved.light.action}."),
         _tool(pendant, solved),
         _figures(pendant, solved),
         _touches(pendant, solved),

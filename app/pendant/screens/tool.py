@@ -11,7 +11,7 @@ from app.calibration.captures import Capture, Step
 from app.calibration.tool import METHODS
 from app.pendant import html
 from app.pendant.screens._paper import play_paper_table, play_upload
-from app.pendant.screens._result import result_html
+from app.pendant.screens._result import light_html, result_html
 from app.session import SessionState
 from app.session.actions import (
     Accept,
@@ -106,9 +106,10 @@ class _View:
         pendant.clicked(self._assist, self._help)
         self._result_folder = gui.add_folder(t("tool.result"), visible=False)
         with self._result_folder:
-            self._result = gui.add_html("")
+            self._light = gui.add_html("")
             self._name = gui.add_text(t("tool.name"), t("tool.first_name", number=len(state.tools) + 1))
-            self._decide = gui.add_button_group("", (t("tool.accept"), t("tool.cancel")))
+            self._decide = gui.add_button_group(t("tool.decide"), (t("tool.accept"), t("tool.cancel")))
+            self._result = gui.add_html("")
         jobs = {t("tool.accept"): self._accept, t("tool.cancel"): self._cancel}
         pendant.chosen(self._decide, lambda label: jobs[label]())
         self.list_folder = gui.add_folder(t("tool.points"))
@@ -228,7 +229,8 @@ class _View:
         self._next.visible = self._assist.visible = self._calculate.visible = not done
         self._calculate.disabled = bool(state.missing)
         if state.result is not None:
-            self._result.content = result_html(self.pendant, state, state.result)
+            self._light.content = light_html(state.result)
+            self._result.content = result_html(self.pendant, state.result)
         else:
             self._instruct(state)
         if not state.missing:

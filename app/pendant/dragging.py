@@ -1,0 +1,54 @@
+"""The drag handle moves the arm by inverse kinematics and says why it stopped."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from app.geometry import Pose
+
+if TYPE_CHECKING:
+    from app.pendant.client import Pendant
+
+
+class Dragging:
+    """What a drag at the handle does.
+
+    The handle is written back only when the drag ends: until then it is in the person's hand.
+
+    Args:
+        pendant: whose arm is dragged.
+    """
+
+    def __init__(self, pendant: Pendant):
+        self._pendant = pendant
+        self._told = ""
+
+    def event(self, phase: str, target: Pose) -> None:
+        """From the browser, on the event loop: only enqueues."""
+        worker = self._pendant.worker
+        if phase == "end":
+            worker.post(lambda: self._end(target))
+        else:
+            worker.latest("drag", lambda: self.follow(target))
+
+    def follow(self, target: Pose) -> None:
+        """The arm goes as near to `target`, T_base_tool, as it can."""
+        pendant = self._pendant
+        pendant.worker.halt("move")
+        result = pendant.solve(target)
+        pendant.show(result.q)
+        words = "" if result.reached else pendant.why(result)
+        if words != self._told:
+            if words:
+                pendant.say("warning", words)
+            else:
+                pendant.layout.message("info", "")
+            self._told = words
+
+    def _end(self, target: Pose) -> None:
+        pendant = self._pendant
+        self.follow(target)
+        self._told = ""
+        pendant.stage.handle.place(pendant.world.tip(pendant.q))
+        pendant.settle()
+        pendant.page.numbers()
