@@ -65,10 +65,9 @@ def test_too_few_and_one_axis_have_the_shape_of_warnings():
 def test_touches_almost_about_one_axis_name_the_axis():
     rotations = rot_z(np.linspace(0, 2, 5)) @ exp_so3(np.outer(np.array([0.0, 0.03, 0.0, -0.03, 0.02]), X))
     result = calibrate(captures(*touches(rotations=rotations, noise=1e-5)))
-    assert (
-        "(0.00, 0.01, 1.00)" in said(result, "one_axis").message
-        or "1.00) in the flange" in said(result, "one_axis").message
-    )
+    message = said(result, "one_axis").message
+    along = np.array([float(v) for v in message.partition("(")[2].partition(")")[0].split(",")])
+    assert along @ Z > 0.99 and "less certain" in message
 
 
 def test_touches_are_compared_with_all_others_not_only_the_first():
@@ -89,7 +88,7 @@ def test_a_bumped_spike_is_found_with_the_touch_it_starts_at(start):
 
 def test_a_bent_tip_is_told_from_a_moved_spike():
     rotations, _ = touches(8, 0.6)
-    tools = np.array([TOOL] * 4 + [TOOL + [0.003, 0.0, 0.0]] * 4)
+    tools = np.array([TOOL] * 4 + [TOOL + 0.003 * X] * 4)
     positions = np.array([1.0, 0.1, 0.4]) - np.einsum("nij,nj->ni", rotations, tools)
     positions += np.random.default_rng(0).normal(0, NOISE, (8, 3))
     message = said(calibrate(captures(rotations, positions)), "bumped").message

@@ -104,6 +104,6 @@ def test_the_reference_mode_asks_for_the_known_tool():
 def test_a_plate_touched_with_little_tilt_is_refused_or_admits_it():
     found = mode("plane")
     demo = found.demo(touches=9)
-    flat = [c for c in demo.captures[:1]] * 9
+    flat = [demo.captures[0]] * 9
     with pytest.raises(DegenerateGeometryError):
         found.solve(flat)
