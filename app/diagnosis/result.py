@@ -138,6 +138,13 @@ class Evidence:
     vectors_before: np.ndarray | None = None
     vectors_after: np.ndarray | None = None
 
+    @property
+    def seconds(self) -> np.ndarray | None:
+        """(m,) time [s] of each sample, from wherever it is known."""
+        if self.t is not None:
+            return self.t
+        return next((np.asarray(v, float) for k, v in self.drivers.items() if k == "time [s]"), None)
+
 
 @dataclass(frozen=True, eq=False)
 class Diagnosis:

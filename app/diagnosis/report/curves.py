@@ -6,17 +6,18 @@ be off by to give this residual; elsewhere the direction in which the residual f
 
 from __future__ import annotations
 
-import re
 from dataclasses import dataclass
 
 import numpy as np
 
+from app.diagnosis.report.labels import Driver, driver
 from app.diagnosis.result import Diagnosis, Evidence
 from app.kinematics import RobotModel
 from app.units import deg, mm
 
 BINS = 14
 _LEAST_IN_BIN = 3
+_FEWEST = 8  # samples below which nothing is plotted
 #: A joint's lever shorter than this share of its longest says nothing about the joint's angle.
 _SHORT_LEVER = 0.15
 
@@ -62,8 +63,8 @@ def driver_curves(diagnosis: Diagnosis, robot: RobotModel | None, most: int = 6)
         return ()
     named = {name for f in diagnosis.findings for name in _wanted(f.where)}
     curves = []
-    for label, values in _drivers(evidence, diagnosis, robot).items():
-        curve = _curve(label, np.asarray(values, float), evidence, robot, _key(label) in named)
+    for source in _drivers(evidence, diagnosis, robot):
+        curve = _curve(source, evidence, robot, (source.key, source.joint) in named)
         if curve is not None:
             curves.append(curve)
     # What explains no more than chance would in so many bins is not worth a picture; two are shown anyway.
@@ -82,68 +83,41 @@ def _wanted(where) -> list[tuple[str, int | None]]:
     return [(str(driver), None if whose is None else int(whose))]
 
 
-def _key(label: str) -> tuple[str, int | None]:
-    """ "gravity torque of joint 2 [Nm]" -> ("gravity_torque", 2)."""
-    text = label.lower()
-    number = re.search(r"joint (\d+)", text)
-    joint = int(number.group(1)) if number else None
-    for word, driver in (
-        ("gravity", "gravity_torque"),
-        ("temperature", "temperature"),
-        ("accel", "acceleration"),
-        ("approach", "approach"),
-        ("speed", "speed"),
-        ("velocity", "speed"),
-        ("time", "time"),
-        ("angle", "own_angle"),
-        ("position", "own_angle"),
-    ):
-        if word in text:
-            return driver, None if driver in ("time",) else joint
-    return text, joint
-
-
-def _drivers(evidence: Evidence, diagnosis: Diagnosis, robot: RobotModel | None) -> dict[str, np.ndarray]:
+def _drivers(evidence: Evidence, diagnosis: Diagnosis, robot: RobotModel | None) -> list[Driver]:
     """What the engine gave, and what the findings name and can be had from the joint positions."""
-    drivers = {str(k): np.asarray(v, float) for k, v in evidence.drivers.items()}
-    present = {_key(label) for label in drivers}
+    drivers = [driver(str(label), values) for label, values in evidence.drivers.items()]
+    present = {(d.key, d.joint) for d in drivers}
     for finding in diagnosis.findings:
-        for driver, joint in _wanted(finding.where):
-            if (driver, joint) in present or (joint is not None and joint > evidence.q.shape[1]):
+        for key, joint in _wanted(finding.where):
+            if (key, joint) in present or (joint is not None and joint > evidence.q.shape[1]):
                 continue
-            if driver == "own_angle" and joint is not None:
+            present.add((key, joint))
+            if key == "own_angle" and joint is not None:
                 slides = robot is not None and robot.joints[joint - 1].prismatic
-                name = f"position of joint {joint} [mm]" if slides else f"angle of joint {joint} [deg]"
-                q = evidence.q[:, joint - 1]
-                drivers[name] = mm(q) if slides else deg(q)
-            elif (
-                driver == "gravity_torque" and joint is not None and robot is not None and robot.has_inertials
-            ):
-                drivers[f"gravity torque of joint {joint} [Nm]"] = robot.gravity_torques(evidence.q)[
-                    :, joint - 1
-                ]
-            elif driver == "time" and evidence.t is not None:
-                drivers["time [s]"] = evidence.t - evidence.t[0]
-            elif driver == "time":
-                drivers["row"] = evidence.rows.astype(float)
+                drivers.append(driver(f"q{joint} [{'m' if slides else 'rad'}]", evidence.q[:, joint - 1]))
+            elif key == "gravity_torque" and joint is not None and robot is not None and robot.has_inertials:
+                torque = robot.gravity_torques(evidence.q)[:, joint - 1]
+                drivers.append(driver(f"gravity torque {joint} [Nm]", torque))
+            elif key == "time" and evidence.seconds is not None:
+                drivers.append(driver("time [s]", evidence.seconds))
+            elif key == "time":
+                drivers.append(Driver("time", None, "line of the file", evidence.rows.astype(float)))
     return drivers
 
 
-def _curve(
-    label: str, x: np.ndarray, evidence: Evidence, robot: RobotModel | None, found: bool
-) -> Curve | None:
+def _curve(source: Driver, evidence: Evidence, robot: RobotModel | None, found: bool) -> Curve | None:
+    x = source.values
     good = evidence.kept & np.isfinite(x)
-    joint = _key(label)[1]
-    if good.sum() < 8 or np.ptp(x[good]) == 0:
+    if good.sum() < _FEWEST or np.ptp(x[good]) == 0:
         return None
-    response, before, after, weight = _response(joint, x, good, evidence, robot)
+    response, before, after, weight = _response(source.joint, x, good, evidence, robot)
     good &= np.isfinite(before) & np.isfinite(after) & (weight > 0)
-    if good.sum() < 8:
+    if good.sum() < _FEWEST or np.ptp(x[good]) == 0:
         return None
     x, before, after, weight = x[good], before[good], after[good], weight[good]
     centres, mean_before, share = binned(x, before, weight)
     _, mean_after, _ = binned(x, after, weight)
-    return Curve(label, response, x, before, after, centres, mean_before, mean_after, share, found)
+    return Curve(source.label, response, x, before, after, centres, mean_before, mean_after, share, found)
 
 
 def _response(
@@ -162,66 +136,71 @@ def _response(
             evidence.after[:, k],
             ones,
         )
-    if joint is not None and robot is not None and joint <= robot.joint_count and _has_points(evidence):
+    known = evidence.points_predicted_before is not None and residual_vectors(evidence)[0] is not None
+    if joint is not None and robot is not None and joint <= robot.joint_count and known:
         return _as_joint_error(joint, evidence, robot)
     direction = _main_direction(x[good], evidence.before[good])
     before, after = evidence.before @ direction, evidence.after @ direction
     return "error along its main direction [mm]", mm(before), mm(after), ones
 
 
-def _has_points(evidence: Evidence) -> bool:
-    return evidence.points_measured is not None and evidence.points_predicted_before is not None
-
-
 def _as_joint_error(
     joint: int, evidence: Evidence, robot: RobotModel
 ) -> tuple[str, np.ndarray, np.ndarray, np.ndarray]:
     """What this joint would have to be off by: J.r / J.J, exact for a fault of the joint itself."""
-    measured, predicted = evidence.points_measured, evidence.points_predicted_before
-    assert measured is not None and predicted is not None
-    after = evidence.points_predicted_after
+    points, first, rest = evidence.points_predicted_before, *residual_vectors(evidence)
+    assert points is not None and first is not None and rest is not None
     chain = robot.chain
-    lever = chain.jacobian_columns(chain.frames(evidence.q), predicted)[:, :, joint - 1]  # (m, 3)
+    lever = chain.jacobian_columns(chain.frames(evidence.q), points)[:, :, joint - 1]  # (m, 3)
     square = np.einsum("mi,mi->m", lever, lever)
     weight = np.where(square > (_SHORT_LEVER**2) * square.max(initial=0.0), square, 0.0)
     with np.errstate(divide="ignore", invalid="ignore"):
-        before = np.einsum("mi,mi->m", measured - predicted, lever) / square
-        rest = measured - (predicted if after is None else after)
+        before = np.einsum("mi,mi->m", first, lever) / square
         left = np.einsum("mi,mi->m", rest, lever) / square
     if robot.joints[joint - 1].prismatic:
         return f"joint {joint} off by [mm]", mm(before), mm(left), weight
     return f"joint {joint} off by [deg]", deg(before), deg(left), weight
 
 
+def residual_vectors(evidence: Evidence) -> tuple[np.ndarray | None, np.ndarray | None]:
+    """(m, 3) measured minus predicted in base [m], before and after; None where there are no points."""
+    if evidence.vectors_before is not None and evidence.vectors_after is not None:
+        return evidence.vectors_before, evidence.vectors_after
+    measured, first = evidence.points_measured, evidence.points_predicted_before
+    if measured is None or first is None:
+        return None, None
+    last = evidence.points_predicted_after
+    return measured - first, measured - (first if last is None else last)
+
+
 def _main_direction(x: np.ndarray, residual: np.ndarray) -> np.ndarray:
     """(k,) unit: along it the binned mean of the residual varies most."""
     clean = np.nan_to_num(residual)
-    edges = _edges(x)
-    which = np.clip(np.searchsorted(edges, x, side="right") - 1, 0, len(edges) - 2)
-    means = np.zeros((len(edges) - 1, clean.shape[1]))
-    for b in np.unique(which):
+    which, count = _bins(x)
+    means = np.zeros((count, clean.shape[1]))
+    for b in range(count):
         inside = which == b
         means[b] = clean[inside].mean(0) * np.sqrt(inside.sum())
     return np.linalg.svd(means, full_matrices=False)[2][0]
 
 
-def _edges(x: np.ndarray, bins: int = BINS) -> np.ndarray:
-    """Bins with about as many samples each."""
-    count = max(min(bins, len(x) // _LEAST_IN_BIN), 1)
-    edges = np.unique(np.quantile(x, np.linspace(0, 1, count + 1)))
-    return edges if len(edges) > 1 else np.array([edges[0], edges[0] + 1.0])
+def _bins(x: np.ndarray) -> tuple[np.ndarray, int]:
+    """Bin of each sample and their number: each value its own where there are few, else about as many in each."""
+    values, which = np.unique(x, return_inverse=True)
+    if len(values) > BINS:
+        count = max(min(BINS, len(x) // _LEAST_IN_BIN), 1)
+        edges = np.unique(np.quantile(x, np.linspace(0, 1, count + 1)))[1:-1]
+        values, which = np.unique(np.searchsorted(edges, x, side="right"), return_inverse=True)
+    return which, len(values)
 
 
 def binned(x: np.ndarray, y: np.ndarray, weight: np.ndarray) -> tuple[np.ndarray, np.ndarray, float]:
-    """Weighted mean of y in bins of x: centres (b,), means (b,), share of y's mean square explained."""
-    edges = _edges(x)
-    which = np.clip(np.searchsorted(edges, x, side="right") - 1, 0, len(edges) - 2)
-    mass = np.bincount(which, weight, len(edges) - 1)
-    filled = mass > 0
-    with np.errstate(invalid="ignore", divide="ignore"):
-        means = np.bincount(which, weight * y, len(edges) - 1) / mass
-        centres = np.bincount(which, weight * x, len(edges) - 1) / mass
+    """Weighted mean of y in bins of x: centres (b,), means (b,), share of y's variance they explain."""
+    which, count = _bins(x)
+    mass = np.bincount(which, weight, count)
+    means = np.bincount(which, weight * y, count) / mass
+    centres = np.bincount(which, weight * x, count) / mass
     overall = float(np.average(y, weights=weight))
     total = float(np.sum(weight * (y - overall) ** 2))
-    told = float(np.sum(mass[filled] * (means[filled] - overall) ** 2))
-    return centres[filled], means[filled], told / total if total > 0 else 0.0
+    told = float(np.sum(mass * (means - overall) ** 2))
+    return centres, means, told / total if total > 0 else 0.0

@@ -21,12 +21,12 @@ p{margin:0 0 7px}section>p.small{break-after:avoid;break-inside:avoid}.soft{colo
 .key i{display:inline-block;width:16px;height:8px;margin-right:5px;border-radius:2px;vertical-align:1px}
 .key i.b{background:var(--before)}.key i.a{background:var(--after)}.key i.m{background:var(--ink)}
 .key i.w{background:#f3d9d9}.key i.n{height:0;border-top:2px dashed var(--noise);vertical-align:3px;border-radius:0}
-.card{border:1px solid var(--rule);border-radius:6px;padding:11px 14px 10px;margin:0 0 11px;break-inside:avoid}
+.card{border:1px solid var(--rule);border-radius:6px;padding:8px 13px 8px;margin:0 0 8px;break-inside:avoid}
 .card .top{display:flex;gap:10px;align-items:baseline;flex-wrap:wrap}
 .card .no{background:var(--after);color:#fff;border-radius:50%;width:21px;height:21px;text-align:center;
 font-size:9.4pt;line-height:21px;font-weight:600;flex:none}
 .card .where{color:var(--soft)}
-.card .say{font-size:11pt;margin:6px 0 8px}
+.card .say{font-size:10.6pt;margin:4px 0 5px}
 .facts{display:grid;grid-template-columns:1.15fr 1fr;gap:4px 22px}
 .facts dl{margin:0;display:grid;grid-template-columns:max-content 1fr;gap:2px 12px;align-content:start}
 dt{color:var(--soft)}dd{margin:0;font-variant-numeric:tabular-nums}

@@ -61,7 +61,7 @@ def place(where: Mapping[str, Any]) -> str:
         # Without a joint to belong to, "its" has nothing to point at.
         parts.append("driven by " + (driver if where.get("joint") else driver.removeprefix("its ")))
     if where.get("from_row") is not None:
-        parts.append(f"from row {where['from_row']} on")
+        parts.append(f"from data row {where['from_row']} on")
     if where.get("from_s") is not None and where.get("to_s") is not None:
         parts.append(f"from {where['from_s']:.2f} s to {where['to_s']:.2f} s")
     elif where.get("from_s") is not None:
@@ -73,7 +73,9 @@ def place(where: Mapping[str, Any]) -> str:
 
 def quantity(parameter: Parameter) -> str:
     """ "12.3 ± 0.4 µrad/Nm": the uncertainty gets two digits and the value as many places."""
-    unit, convert = _READ_AS.get(parameter.unit, (parameter.unit, lambda x: x))
+    unit, convert = _READ_AS.get(
+        parameter.unit, ("" if parameter.unit == "1" else parameter.unit, lambda x: x)
+    )
     return f"{plus_minus(float(convert(parameter.value)), float(convert(parameter.std)))} {unit}".strip()
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from app.diagnosis.report.curves import residual_vectors
 from app.diagnosis.report.drawing import svg
 from app.diagnosis.report.drawing.axes import Axes
 from app.diagnosis.result import Evidence
@@ -64,9 +65,9 @@ def _points(evidence: Evidence) -> np.ndarray:
 
 
 def _residual(evidence: Evidence, *, after: bool) -> np.ndarray:
-    assert evidence.points_measured is not None and evidence.points_predicted_before is not None
-    predicted = evidence.points_predicted_after if after else None
-    return evidence.points_measured - (evidence.points_predicted_before if predicted is None else predicted)
+    vectors = residual_vectors(evidence)[int(after)]
+    assert vectors is not None
+    return vectors
 
 
 def _square(points: np.ndarray, view: tuple[int, int]) -> Axes:

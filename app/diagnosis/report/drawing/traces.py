@@ -21,8 +21,8 @@ def trace_plot(
     evidence: Evidence, joint: int, windows: Sequence[tuple[float, float]], *, labelled: bool
 ) -> str:
     """One joint (counted from 0): torques above, residuals below, on one time axis."""
-    assert evidence.t is not None
-    t = evidence.t - 0.0
+    t = evidence.seconds
+    assert t is not None
     measured = evidence.measured[:, joint]
     before, after = evidence.before[:, joint], evidence.after[:, joint]
     span = (float(t[0]), float(t[-1]))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from app.diagnosis.report.curves import residual_vectors
 from app.diagnosis.report.drawing.arrows import arrow_plot, magnification
 from app.diagnosis.report.parts.case import Case, figure, key, section
 
@@ -9,7 +10,7 @@ from app.diagnosis.report.parts.case import Case, figure, key, section
 def space(case: Case) -> str:
     """Nothing for recordings without points."""
     evidence = case.diagnosis.evidence
-    if evidence is None or evidence.points_measured is None or evidence.points_predicted_before is None:
+    if evidence is None or evidence.points_predicted_before is None or residual_vectors(evidence)[0] is None:
         return ""
     factor = magnification(evidence)
     states = (False, True) if case.diagnosis.findings else (False,)

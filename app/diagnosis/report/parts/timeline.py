@@ -14,8 +14,8 @@ def windows_of(diagnosis: Diagnosis) -> list[tuple[float, float]]:
     """Spans of time [s] that findings point at; an open end runs to the end of the recording."""
     evidence = diagnosis.evidence
     end = (
-        float(evidence.t[-1])
-        if evidence is not None and evidence.t is not None and len(evidence.t)
+        float(evidence.seconds[-1])
+        if evidence is not None and evidence.seconds is not None and len(evidence.seconds)
         else np.inf
     )
     return [
@@ -28,7 +28,7 @@ def windows_of(diagnosis: Diagnosis) -> list[tuple[float, float]]:
 def timeline(case: Case) -> str:
     """Nothing for recordings that are no torques over time."""
     d, evidence = case.diagnosis, case.diagnosis.evidence
-    if evidence is None or evidence.unit != "Nm" or evidence.t is None or len(evidence.t) < 2:
+    if evidence is None or evidence.unit != "Nm" or evidence.seconds is None or len(evidence.seconds) < 2:
         return ""
     windows = windows_of(d)
     count = evidence.measured.shape[1]
