@@ -38,6 +38,13 @@ class Session:
         """The session's name in its store; empty where nothing is kept."""
         return self._journal.recorded.header.session if self._journal else ""
 
+    @property
+    def path(self) -> Path:
+        """The journal's file; only where there is one."""
+        if self._journal is None:
+            raise ValueError("this session keeps no journal")
+        return self._journal.path
+
     def do(self, action: AnyAction) -> SessionState:
         """Does one action: first tried, then written, then taken over.
 

@@ -17,7 +17,7 @@ def light_up(scene: viser.SceneApi) -> None:
     """Lights without shadows: a page without a graphics card stays smooth."""
     scene.configure_default_lights(cast_shadow=False)
     scene.configure_environment_map(hdri=None)
-    scene.add_light_ambient("/lights/ambient", intensity=1.1)
+    scene.add_light_ambient("/lights/ambient", intensity=0.9)
 
 
 def lay_floor(scene: viser.SceneApi, *, dark: bool) -> None:

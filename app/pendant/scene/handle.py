@@ -23,7 +23,7 @@ class Handle:
     """
 
     def __init__(self, scene: viser.SceneApi, dragged: Dragged, scale: float):
-        self.dragging = False
+        self.dragging, self.length = False, scale
         self._controls = scene.add_transform_controls(
             "/handle", scale=scale, line_width=3.0, depth_test=False, opacity=0.9
         )

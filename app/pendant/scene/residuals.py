@@ -10,7 +10,7 @@ from app.units import from_mm, mm
 
 _LONGEST = from_mm(300.0)  # the longest arrow may be this long
 _FACTORS = (1, 2, 5, 10, 20, 50, 100, 200, 500, 1_000, 2_000, 5_000, 10_000)
-_ORANGE = (230, 73, 128)
+_PINK = (200, 30, 100)
 
 
 def magnification(result: ToolCalibration) -> int:
@@ -39,7 +39,7 @@ class Residuals:
             self._scene.add_arrows(
                 "/residuals/arrows",
                 np.stack([start, ends], axis=1).astype(np.float32),
-                _ORANGE,
+                _PINK,
                 shaft_radius=from_mm(3.5),
                 head_radius=from_mm(9.0),
                 head_length=from_mm(24.0),

@@ -65,6 +65,11 @@ def play(pendant: Pendant, action: LoadPoints) -> None:
         return
     pendant.say("info", pendant.t("message.loading", source=action.source, count=len(stops)))
 
+    origin = next((i for i, c in enumerate(state.ordered) if "origin" in c.roles), None)
+    if origin is not None and origin != len(stops) - 1:  # end where the tip is on the spike
+        stops.append(stops[origin])
+        titles.append(titles[origin])
+
     def arrived(number: int) -> None:
         if number >= 0:
             pendant.say("info", pendant.t("message.at_point", title=titles[number], source=action.source))

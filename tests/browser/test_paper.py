@@ -1,0 +1,39 @@
+"""The paper's table at the press of a button: the arm goes through its points, then the result stands there."""
+
+import numpy as np
+import pytest
+
+from app.calibration.solving import solve_file
+from app.pendant.screens._paper import PAPER
+from app.units import mm
+
+pytestmark = [pytest.mark.browser, pytest.mark.xdist_group("browser")]
+
+
+def test_the_papers_table_is_played_and_explained(serve, sit_down):
+    person = sit_down(serve(robot="ur10e"))
+    other = person.pendant.q.copy()
+    person.click("Load the paper's table")
+    person.until(lambda: person.state.robot == "jby50", "the paper's arm")
+    person.until(lambda: len(person.state.captures) == 6, "six points")
+    person.until(lambda: person.state.result is not None, "the result")
+    person.at_rest()
+    assert len(person.pendant.q) == len(other)
+
+    expected = solve_file(PAPER, method="pairwise", orientation="zx")
+    result = person.state.result.result
+    assert np.array_equal(result.tool_point, expected.result.tool_point)
+    assert result.delta == expected.result.delta
+    for value in mm(result.tool_point):
+        assert f"{value:.3f}" in person.seen("tool-point")
+    remarks = person.seen("notes")
+    assert "Rounding: the written digits alone scatter the tool point" in remarks
+    assert "Gap to the printed tool" in remarks
+    assert person.seen("light")
+    person.picture("paper_light")
+
+    person.tab("Cell")
+    person.page.get_by_label("Dark page", exact=True).click()
+    person.until(lambda: person.pendant.dark, "the dark page")
+    person.picture("paper_dark")
+    assert not person.faults
