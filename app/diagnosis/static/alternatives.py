@@ -19,7 +19,7 @@ def alternatives_of(fitted: Fitted, index: int, wanted: tuple[Candidate, ...]) -
     """Candidates that, put in the place of term `index`, come within `MARGIN` of it."""
     jacobian, white = without(fitted, index)
     base = basis(jacobian)
-    scores = score_all(fitted, library(fitted.columns, wanted), base, None, white)
+    scores = score_all(fitted, library(fitted.columns, wanted, fitted.ghosts), base, None, white)
     term = fitted.terms[index]
     rest = white - base.q @ (base.q.T @ white)
     rss, n = float(rest @ rest), fitted.size

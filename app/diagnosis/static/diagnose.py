@@ -9,14 +9,13 @@ import numpy as np
 from app.diagnosis.model import SavedModel
 from app.diagnosis.result import Diagnosis, Progress
 from app.diagnosis.static.fit import Fitted, Term, fit
-from app.diagnosis.static.library import candidates
 from app.diagnosis.static.models import held_terms
 from app.diagnosis.static.noise import starting_weights, weights_from
 from app.diagnosis.static.nuisance import starting_setup
+from app.diagnosis.static.plan import Plan, explore
 from app.diagnosis.static.reading import read_static, renumbered
 from app.diagnosis.static.recording import StaticRecording
 from app.diagnosis.static.robust import outlier_rows
-from app.diagnosis.static.search import Found, forward
 from app.diagnosis.static.verdict import conclude
 from app.kinematics import RobotModel
 from app.recordings import Table
@@ -65,11 +64,18 @@ def plain_fit(recording: StaticRecording, held: tuple[Term, ...]) -> Fitted:
     return fit(recording, first.setup, (), weights_from(first), held=held)
 
 
+def everywhere(recording: StaticRecording, fitted: Fitted) -> Fitted:
+    """The same model fitted to every row, outliers included."""
+    weights = recording.present * fitted.weights.max(axis=0)
+    return fit(recording, fitted.setup, fitted.terms, weights, held=fitted.held, iterations=0)
+
+
 class Outcome:
     """What the search leaves: the plain fit before, the findings, and the rows set aside."""
 
-    def __init__(self, before: Fitted, found: Found, outliers: np.ndarray):
-        self.before, self.found, self.outliers = before, found, outliers
+    def __init__(self, before: Fitted, plan: Plan, outliers: np.ndarray):
+        self.before, self.plan, self.outliers = before, plan, outliers
+        self.found = plan.found
 
 
 def search(recording: StaticRecording, held, seed: int, tick) -> Outcome:
@@ -78,18 +84,19 @@ def search(recording: StaticRecording, held, seed: int, tick) -> Outcome:
     kept = np.ones(recording.size, bool)
     before = plain_fit(recording, held)
     out = outlier_rows(before)
-    found = None
+    plan = None
     for _ in range(2):
         kept = ~out
         part = recording if kept.all() else renumbered(recording.subset(kept))
         before = plain_fit(part, held)
-        found = forward(before, candidates(part.situation), rng, tick=tick)
-        if not found.fitted.terms:
+        plan = explore(before, rng, tick)
+        fitted = plan.found.fitted
+        if not fitted.terms or len(fitted.setup.rotations) != recording.session_count:
             break
-        whole = fit(recording, found.fitted.setup, found.fitted.terms, starting_weights(recording), held=held)
+        whole = everywhere(recording, fitted)
         again = outlier_rows(whole)
         if np.array_equal(again, out):
             break
         out = again
-    assert found is not None
-    return Outcome(before, found, ~kept)
+    assert plan is not None
+    return Outcome(before, plan, ~kept)

@@ -7,7 +7,7 @@ import numpy as np
 from app.diagnosis.result import Finding, Quality
 from app.diagnosis.static.alternatives import alternatives_of
 from app.diagnosis.static.fit import Fitted, covariance
-from app.diagnosis.static.heldout import heldout_squares, interleaved
+from app.diagnosis.static.heldout import KEPT, heldout_squares, interleaved
 from app.diagnosis.static.library import Candidate
 from app.diagnosis.static.noise import component_rms
 from app.diagnosis.static.score import basis
@@ -67,15 +67,13 @@ def heldout_position(fitted: Fitted, leave: int | None = None) -> float:
     The whitened held-out error is brought back by the spread of the position components.
     """
     jacobian, white = (fitted.jacobian, fitted.white) if leave is None else without(fitted, leave)
-    m = len(fitted.weights)
-    metric = np.repeat((~fitted.recording.angular)[None], m, axis=0).reshape(-1)
-    sigma = 1.0 / float(fitted.weights[:, ~fitted.recording.angular].max(initial=1e-300))
+    recording = fitted.recording
+    metric = (fitted.weights > 0) & ~recording.angular
+    sigma = 1.0 / float(fitted.weights[:, ~recording.angular].max(initial=1e-300))
+    ghosts = np.zeros((fitted.ghosts, metric.shape[1]), bool)
+    fold = np.concatenate([interleaved(recording.pose), np.full(fitted.ghosts, KEPT)])
     total, count = heldout_squares(
-        jacobian,
-        white,
-        interleaved(fitted.recording.pose),
-        m,
-        counted=metric & (fitted.weights.reshape(-1) > 0),
+        jacobian, white, fold, fitted.rows, counted=np.concatenate([metric, ghosts]).reshape(-1)
     )
     return mm(sigma * float(np.sqrt(total / max(count, 1))))
 

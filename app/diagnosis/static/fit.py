@@ -26,13 +26,15 @@ class Term:
 
     Args:
         values: (d,) SI, in the order of the effect's quantities.
-        tacit: True for geometry that is only fitted so that it does not disturb; it is no finding.
+        tacit: True for what is only fitted so that it does not disturb; it is no finding.
+        spread: one-sigma size [SI] it is expected to have at most, infinite where nothing is expected.
     """
 
     effect: StaticEffect
     place: Place
     values: np.ndarray
     tacit: bool = False
+    spread: float = np.inf
 
     @property
     def where(self) -> Mapping[str, Any]:
@@ -59,8 +61,9 @@ class Fitted:
     Args:
         recording, setup, terms, weights: the state; terms carry fitted values. `held` are not fitted.
         residual: (m, k) measured minus predicted, SI.
-        white: (N,) whitened, rows times components.
+        white: (N,) whitened, rows times components; then ghost rows, which hold the expected sizes.
         jacobian: (N, p) whitened columns: setup first, then terms in order.
+        ghosts: number of ghost rows behind the recorded ones.
         slices: where each term's columns stand.
         columns: elementary columns at the solution.
         size: number of measured components.
@@ -79,7 +82,19 @@ class Fitted:
     slices: tuple[slice, ...]
     columns: Sensitivity
     size: int
+    ghosts: int
     converged: bool
+
+    @property
+    def rows(self) -> int:
+        """Recorded rows and ghosts."""
+        return self.recording.size + self.ghosts
+
+    @property
+    def real(self) -> np.ndarray:
+        """(m, k) whitened residual of the recorded rows."""
+        m, k = self.weights.shape
+        return self.white[: m * k].reshape(m, k)
 
     @property
     def rss(self) -> float:
@@ -159,10 +174,28 @@ def _state(recording, setup, terms, weights, held) -> Fitted:
         blocks.append(block)
     jacobian = np.concatenate(blocks, axis=2).reshape(m * k, at)
     white = (rest * weights).reshape(-1)
+    white, jacobian, expected = _with_ghosts(white, jacobian, terms, slices, k)
     return Fitted(
         recording, setup, tuple(terms), tuple(held), weights, cell, posed, rest, white, jacobian,
-        tuple(slices), columns, int(np.count_nonzero(weights)), False,
+        tuple(slices), columns, int(np.count_nonzero(weights)) + expected, -(-expected // k), False,
     )  # fmt: skip
+
+
+def _with_ghosts(white, jacobian, terms, slices, k: int):
+    """Behind the recorded rows, one entry for every expected size: 0 = value / spread, filled up to whole rows."""
+    entries = [(term, where) for term, where in zip(terms, slices, strict=True) if np.isfinite(term.spread)]
+    count = sum(len(term.values) for term, _ in entries)
+    if not count:
+        return white, jacobian, 0
+    filled = -(-count // k) * k
+    more, rows = np.zeros(filled), np.zeros((filled, jacobian.shape[1]))
+    at = 0
+    for term, where in entries:
+        d = len(term.values)
+        more[at : at + d] = -term.values / term.spread
+        rows[np.arange(at, at + d), np.arange(where.start, where.stop)] = 1.0 / term.spread
+        at += d
+    return np.concatenate([white, more]), np.concatenate([jacobian, rows]), count
 
 
 def _stepped(now: Fitted, step: np.ndarray) -> Fitted:

@@ -6,6 +6,7 @@ import numpy as np
 
 FOLDS = 10
 BLOCKS = 5
+KEPT = -1  # the fold of rows that are never left out
 _RIDGE = 1e-10  # relative: keeps a fold solvable in which some direction is not seen
 
 
@@ -43,7 +44,7 @@ def heldout_squares(
     gram, right = scaled.T @ scaled, scaled.T @ white
     folds = np.repeat(fold, per_row)
     total, count = 0.0, 0
-    for f in np.unique(fold):
+    for f in np.unique(fold[fold != KEPT]):
         out = folds == f
         block, rest = scaled[out], white[out]
         part = block.T @ block
@@ -64,11 +65,14 @@ def heldout_squares(
     return total, count
 
 
-def heldout_loss(jacobian: np.ndarray, white: np.ndarray, pose: np.ndarray) -> tuple[float, float]:
+def heldout_loss(
+    jacobian: np.ndarray, white: np.ndarray, pose: np.ndarray, ghosts: int = 0
+) -> tuple[float, float]:
     """Mean squared held-out error in interleaved and in time-block folds, whitened."""
-    rows = len(pose)
+    rows = len(pose) + ghosts
     out = []
-    for fold in (interleaved(pose), blocks(rows)):
+    for fold in (interleaved(pose), blocks(len(pose))):
+        fold = np.concatenate([fold, np.full(ghosts, KEPT)])
         total, count = heldout_squares(jacobian, white, fold, rows)
         out.append(total / max(count, 1))
     return out[0], out[1]

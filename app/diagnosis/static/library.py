@@ -65,17 +65,23 @@ def candidates(situation: Situation, without: frozenset[str] = frozenset()) -> t
     )
 
 
-def library(columns: Sensitivity, wanted: tuple[Candidate, ...]) -> Library:
-    """Their columns at the present state of the cell."""
+def library(columns: Sensitivity, wanted: tuple[Candidate, ...], ghosts: int = 0) -> Library:
+    """Their columns at the present state of the cell; zeros in the ghost rows behind the recorded ones."""
     m, k = columns.weights.shape
     fixed, blocks, scans = [], [], []
     for candidate in wanted:
         block = candidate.effect.columns(columns, candidate.place)
+        if ghosts:
+            block = np.concatenate([block, np.zeros((ghosts, *block.shape[1:]))])
         if candidate.place.scan:
             scans.append((candidate, block))
         else:
             fixed.append(candidate)
             blocks.append(block)
     starts = np.concatenate([[0], np.cumsum([b.shape[2] for b in blocks])]).astype(int)
-    matrix = np.concatenate(blocks, axis=2).reshape(m * k, -1) if blocks else np.zeros((m * k, 0))
+    matrix = (
+        np.concatenate(blocks, axis=2).reshape((m + ghosts) * k, -1)
+        if blocks
+        else np.zeros(((m + ghosts) * k, 0))
+    )
     return Library(tuple(fixed), matrix, starts, tuple(scans))

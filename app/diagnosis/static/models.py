@@ -18,6 +18,8 @@ def saved_model(fitted: Fitted, robot: str, source: str) -> SavedModel:
     """Everything found, in SI, geometry that was only fitted alongside included."""
     out = []
     for term in (*fitted.held, *fitted.terms):
+        if term.effect.key not in effects():
+            continue  # a curve without a name is no model
         quantities = term.effect.quantities(fitted.recording.situation, term.place)
         parameters = {q.name: float(v) for q, v in zip(quantities, term.values, strict=True)}
         parameters |= {_FIXED + name: float(value) for name, value in term.place.fixed.items()}

@@ -15,9 +15,9 @@ MOST = 0.15  # share of the poses that may be set aside
 def outlier_rows(fitted: Fitted) -> np.ndarray:
     """(m,) True for rows whose residual is too large for the others, leverage taken into account."""
     m, k = fitted.weights.shape
-    q = basis(fitted.jacobian).q
+    q = basis(fitted.jacobian).q[: m * k]
     leverage = np.einsum("np,np->n", q, q).reshape(m, k)
-    adjusted = fitted.white.reshape(m, k) / np.sqrt(np.maximum(1.0 - leverage, 0.1))
+    adjusted = fitted.real / np.sqrt(np.maximum(1.0 - leverage, 0.1))
     present = fitted.weights > 0
     count = present.sum(axis=1)
     squares = np.sum(adjusted**2, axis=1)

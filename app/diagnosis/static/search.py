@@ -51,7 +51,8 @@ def score_all(
     rest = fitted.white if white is None else white
     rest = rest - base.q @ (base.q.T @ rest)
     dof = max(fitted.size - base.q.shape[1], 2)
-    return score_library(lib, base, rest, recording.size, dof, signs, recording.situation.order)
+    order = np.concatenate([recording.situation.order, np.zeros(fitted.ghosts)])
+    return score_library(lib, base, rest, fitted.rows, dof, signs, order)
 
 
 def forward(
@@ -66,11 +67,11 @@ def forward(
     """Takes terms while the best one beats chance and the rows left out agree."""
     now, p_values = start, []
     null = np.zeros(0)
-    signs = flips(rng, start.recording.pose, nulls)
+    signs = flips(rng, with_ghosts(start.recording.pose, start.ghosts), nulls)
     for count in range(MOST_TERMS):
         tick(count / MOST_TERMS, "looking for what is missing")
         base = basis(now.jacobian)
-        scores = score_all(now, library(now.columns, wanted), base, signs)
+        scores = score_all(now, library(now.columns, wanted, now.ghosts), base, signs)
         null = scores.null
         taken = _take(now, scores, level)
         if taken is None:
@@ -102,6 +103,11 @@ def _take(now: Fitted, scores: Scores, level: float) -> tuple[Fitted, float] | N
     return None
 
 
+def with_ghosts(pose: np.ndarray, ghosts: int) -> np.ndarray:
+    """Numbers of the poses, every ghost row one of its own."""
+    return np.concatenate([pose, pose.max() + 1 + np.arange(ghosts)])
+
+
 def key_of(key: str, where) -> tuple:
     """Identity of a finding for "is it in already": steps of one kind may recur at another row."""
     return (key, *sorted((k, v) for k, v in where.items()))
@@ -131,9 +137,9 @@ def at_bound(fitted: Fitted, index: int) -> bool:
 def improves(before: Fitted, after: Fitted) -> bool:
     """True where the rows left out are predicted better, in interleaved and in time-block folds together."""
     pose = before.recording.pose
-    # The whitening of both must be the same to compare.
-    old = heldout_loss(before.jacobian, before.white, pose)
-    new = heldout_loss(after.jacobian, after.white, pose)
+    # Both are whitened alike, or they could not be compared.
+    old = heldout_loss(before.jacobian, before.white, pose, before.ghosts)
+    new = heldout_loss(after.jacobian, after.white, pose, after.ghosts)
     return new[0] < old[0] and new[0] + new[1] < old[0] + old[1]
 
 
@@ -166,7 +172,7 @@ def settle(now: Fitted, wanted: tuple[Candidate, ...], passes: int = 4) -> Fitte
 def _better(now: Fitted, index: int, wanted: tuple[Candidate, ...]) -> Fitted | None:
     jacobian, white = without(now, index)
     base = basis(jacobian)
-    scores = score_all(now, library(now.columns, wanted), base, None, white)
+    scores = score_all(now, library(now.columns, wanted, now.ghosts), base, None, white)
     term = now.terms[index]
     mine = _own_score(now, index, base, white)
     others = {key_of(t.effect.key, t.where) for i, t in enumerate(now.terms) if i != index}
