@@ -35,7 +35,8 @@ def read_table(path: str | Path) -> Table:
         raise FileFormatError(f"cannot be read ({error.strerror})", file=path) from None
     if not head:
         raise FileFormatError("the file is empty", file=path, row=1, expected="a header row")
-    for form in catalog.members(FORMATS, "FORMAT").values():
+    forms = catalog.members(FORMATS, "FORMAT").values()
+    for form in sorted(forms, key=lambda form: getattr(form, "fallback", False)):
         if form.matches(path, head):
             return form.read(path)
     raise FileFormatError(

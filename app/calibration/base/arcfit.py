@@ -69,13 +69,17 @@ class ArcFit:
 
     @property
     def radius(self) -> float:
-        """Radius of the circle with the most rows [m]."""
-        return float(self.fit.radii[np.bincount(self.groups, self.used).argmax()])
+        """Radius of the circle with the most rows, the largest of equals [m]."""
+        return float(self.fit.radii[self._main])
 
     @property
     def centre(self) -> np.ndarray:
         """(3,) [m] centre of that circle."""
-        return self.fit.centres[np.bincount(self.groups, self.used).argmax()]
+        return self.fit.centres[self._main]
+
+    @property
+    def _main(self) -> int:
+        return int(np.lexsort((self.fit.radii, np.bincount(self.groups, self.used)))[-1])
 
     @property
     def rms(self) -> float:

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from app.geometry.line import common_perpendicular, cross, dot
+from app.geometry.pose import Pose
 from app.geometry.rotation import skew
 
 
@@ -181,3 +182,11 @@ def point_jacobian(p_frame: np.ndarray) -> np.ndarray:
     p_frame = np.asarray(p_frame, float)
     eye = np.broadcast_to(np.eye(3), (*p_frame.shape[:-1], 3, 3))
     return np.concatenate([eye, -skew(p_frame)], axis=-1)
+
+
+def adjoint(T_a_b: Pose) -> np.ndarray:
+    """(6, 6): a small motion (displacement, rotation) of frame b in b's axes -> the same motion in a, at a's origin."""
+    out = np.zeros((6, 6))
+    out[:3, :3] = out[3:, 3:] = T_a_b.rotation
+    out[:3, 3:] = cross(T_a_b.position[None, :], T_a_b.rotation.T).T
+    return out

@@ -57,4 +57,5 @@ def maker_frame(base: BaseCalibration, robot: RobotModel) -> MakerFrame | None:
     step = T_maker_base.inverse()
     turned = base.zero.angle if base.zero is not None and base.zero.known else 0.0
     found = base.T_tracker_base @ Pose.of(rot_z(-turned)) @ step
-    return MakerFrame(robot.name, step, found, offset, angle, float(T_maker_base.position[2]))
+    name = robot.title if robot.description else robot.model.name
+    return MakerFrame(name, step, found, offset, angle, float(T_maker_base.position[2]))

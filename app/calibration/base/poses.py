@@ -12,7 +12,7 @@ import numpy as np
 
 from app.errors import DegenerateGeometryError, TooFewPointsError
 from app.estimation import Fit, gauss_newton
-from app.geometry import Pose, exp_so3, fit_rigid, skew
+from app.geometry import Pose, angle_between, exp_so3, fit_rigid, nearest_rotation, skew
 
 FEWEST = 6  # poses: 9 unknowns, and something left to judge by
 FOLDS = 5
@@ -30,6 +30,7 @@ class PoseBase:
         heldout: (n,) distance [m] between measured and predicted point of every pose, each predicted by a fit
             that had not seen it.
         count: poses.
+        wrist: [rad] largest turn of the flange between any pose and their mean.
     """
 
     T_tracker_base: Pose
@@ -38,6 +39,7 @@ class PoseBase:
     fit: Fit
     heldout: np.ndarray
     count: int
+    wrist: float = 0.0
 
     @property
     def heldout_rms(self) -> float:
@@ -79,7 +81,9 @@ def base_from_poses(rotations: np.ndarray, positions: np.ndarray, measured: np.n
             measured[out] - _predict(part.values, rotations[out], positions[out]), axis=1
         )
     base = _pose(fit.values)
-    return PoseBase(base, fit.values[6:9].copy(), fit.covariance[:6, :6].copy(), fit, heldout, n)
+    mean = nearest_rotation(rotations.mean(axis=0))
+    wrist = float(np.max(angle_between(np.broadcast_to(mean, rotations.shape), rotations)))
+    return PoseBase(base, fit.values[6:9].copy(), fit.covariance[:6, :6].copy(), fit, heldout, n, wrist)
 
 
 def _pose(values: np.ndarray) -> Pose:

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from app.calibration.base.checks import look
-from app.calibration.base.frame import point_jacobian
+from app.calibration.base.frame import adjoint, point_jacobian
 from app.calibration.base.result import BaseCalibration
 from app.calibration.result import Warning_
 from app.errors import DegenerateGeometryError
@@ -89,7 +89,7 @@ def relate(first: BaseCalibration, second: BaseCalibration, meeting: np.ndarray 
     if meeting is None:
         front = T2.apply(second.T_tracker_base.inverse().apply(second.towards))
         meeting = T1.inverse().apply((first.towards + front) / 2.0)
-    back = _adjoint(T12.inverse())
+    back = adjoint(T12.inverse())
     covariance = back @ first.covariance @ back.T + second.covariance + extra
     at = point_jacobian(T12.inverse().apply(meeting))
     there = T12.rotation @ at @ covariance @ at.T @ T12.rotation.T
@@ -103,15 +103,6 @@ def relate(first: BaseCalibration, second: BaseCalibration, meeting: np.ndarray 
     )
     relation = Relation(None if lost else T12, covariance, first, second, meeting, there, drift, notes=notes)
     return replace(relation, warnings=tuple(look("pair", relation)))
-
-
-def _adjoint(T_a_b: Pose) -> np.ndarray:
-    """A small motion of frame b, written in b's axes, as the motion it is in a's axes at a's origin."""
-    out = np.zeros((6, 6))
-    r = T_a_b.rotation
-    out[:3, :3] = out[3:, 3:] = r
-    out[:3, 3:] = np.cross(T_a_b.position[:, None], r, axis=0)
-    return out
 
 
 def _noise(first: BaseCalibration, second: BaseCalibration) -> float:
@@ -152,5 +143,5 @@ def tracker_drift(
 
 def _carried(drift: Drift, second: BaseCalibration) -> np.ndarray:
     """Uncertainty of the way back over the fixed points, in the axes of base 2."""
-    j = _adjoint(second.T_tracker_base.inverse())
+    j = adjoint(second.T_tracker_base.inverse())
     return j @ drift.covariance @ j.T

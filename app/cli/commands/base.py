@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Literal
 
 import tyro
 
@@ -30,6 +30,9 @@ class Command:
     axis: tuple[str, ...] = ()
     """For exports whose names do not say it: AXIS=PATTERN, such as 1=ROB1_J1_* 2=ROB1_J2_*."""
 
+    unit: Literal["mm", "m"] | None = None
+    """Unit of an export that does not say its own."""
+
     at: tuple[float, float, float] | None = None
     """Where both tools meet, mm in base 1; default half-way between the work spaces."""
 
@@ -46,6 +49,7 @@ class Command:
             robot=self.robot,
             patterns=self.axis,
             meeting_mm=self.at,
+            unit=self.unit,
         )
         print(msgspec.json.encode(result.to_json()).decode() if self.json else result.to_text())
         return 0

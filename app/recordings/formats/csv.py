@@ -21,6 +21,7 @@ _KEY = re.compile(r"^#\s*([A-Za-z_][A-Za-z0-9_]*)\s*:\s?(.*)$")
 class Csv:
     key = "csv"
     title = "CSV with units in the column names"
+    fallback = True  # takes any text, so every other format is asked first
 
     def matches(self, path: Path, head: bytes) -> bool:
         return path.is_file() and b"\x00" not in head

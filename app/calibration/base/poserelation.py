@@ -1,0 +1,111 @@
+"""Two arms from two pose recordings: whether their relation can be had, and how that is known."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from app.calibration.base.frame import adjoint
+from app.calibration.base.poses import PoseBase
+from app.calibration.result import Warning_
+from app.geometry import Pose
+from app.kinematics import RobotModel
+from app.units import deg, from_deg, from_mm, mm
+
+_WEAK = from_mm(5.0)  # m: a base known worse than this is worth a warning
+_DESCRIPTION = (from_mm(50.0), from_deg(2.0))  # what no wrong description of an arm explains away
+_SAME = 1e-9
+
+
+@dataclass(frozen=True, eq=False)
+class PoseRelation:
+    """The second base in the first, or why there is none.
+
+    Args:
+        T_base1_base2: None where the recordings cannot give it.
+        covariance: (6, 6) in base 2's axes.
+    """
+
+    T_base1_base2: Pose | None
+    covariance: np.ndarray
+    warnings: tuple[Warning_, ...]
+
+
+def share_first_body(one: RobotModel, two: RobotModel) -> bool:
+    """True where two descriptions differ in nothing but where joint 2 sits on link 1: two arms on one first axis."""
+    a, b = one.chain, two.chain
+    if a.joint_count != b.joint_count or a.joint_count < 3 or one.joints[0].name != two.joints[0].name:
+        return False
+
+    def same(name: str, rows: slice) -> bool:
+        return np.allclose(getattr(a, name)[rows], getattr(b, name)[rows], atol=_SAME)
+
+    first, rest = slice(0, 1), slice(2, None)
+    alike = all(same(n, r) for n in ("rotations", "translations", "axes") for r in (first, rest))
+    second = same("rotations", slice(1, 2)) and same("translations", slice(1, 2))
+    return alike and not second
+
+
+def relate_poses(
+    first: PoseBase, second: PoseBase, robots: tuple[RobotModel, RobotModel], joint1: tuple[float, float]
+) -> PoseRelation:
+    """T_base1_base2, unless the recordings themselves show that they do not share one tracker frame.
+
+    Args:
+        first, second: bases from poses.
+        robots: their descriptions.
+        joint1: mean angle of joint 1 in each recording [rad].
+    """
+    T12 = first.T_tracker_base.inverse() @ second.T_tracker_base
+    back = adjoint(T12.inverse())
+    covariance = back @ first.covariance @ back.T + second.covariance
+    if not share_first_body(*robots):
+        note = Warning_(
+            "tracker_unchecked",
+            "nothing in these files would show a tracker that moved between them",
+            "measure three fixed points with both",
+        )
+        return PoseRelation(T12, covariance, (note,))
+    apart, turn = float(np.linalg.norm(T12.position)), float(np.linalg.norm(T12.rotvec))
+    open_by = float(np.sqrt(np.trace(covariance[:3, :3]))), float(np.sqrt(np.trace(covariance[3:, 3:])))
+    beyond = (
+        apart > 5.0 * open_by[0] + _DESCRIPTION[0],
+        turn > 5.0 * open_by[1] + _DESCRIPTION[1],
+    )
+    if not any(beyond):
+        return PoseRelation(T12, covariance, ())
+    name = robots[0].joints[0].name
+    return PoseRelation(
+        None,
+        covariance,
+        (
+            Warning_(
+                "tracker_moved",
+                f"both descriptions begin with one first axis ({name}), which stood at {deg(joint1[0]):.4f} and "
+                f"{deg(joint1[1]):.4f} degrees, so both recordings must give one and the same base; they give two, "
+                f"{mm(apart):.0f} mm and {deg(turn):.2f} degrees apart, where the fits leave "
+                f"{mm(open_by[0]):.0f} mm and {deg(open_by[1]):.3f} degrees open: the instrument's frame is another one in each file, and no "
+                f"measured point is common to both, so T_base1_base2 cannot be had from them",
+                "record both arms with the instrument in one place, or three fixed points in each file",
+                severe=True,
+            ),
+        ),
+    )
+
+
+def pose_warnings(base: PoseBase) -> tuple[Warning_, ...]:
+    """What a person should know of a base from poses."""
+    worst = float(np.sqrt(np.linalg.eigvalsh(base.covariance[:3, :3])[-1]))
+    if worst < _WEAK:
+        return ()
+    return (
+        Warning_(
+            "weak_poses",
+            f"the base's place is open by {mm(worst):.1f} mm (its directions by "
+            f"{deg(float(np.sqrt(np.trace(base.covariance[3:, 3:])))):.3f} degrees): the wrist turned by no more than "
+            f"{deg(base.wrist):.1f} degrees over all poses, so that moving the base and moving the reflector on the "
+            f"flange look almost alike (condition {base.fit.condition:.0f})",
+            "add poses with the wrist turned by 30 degrees or more about two axes",
+        ),
+    )

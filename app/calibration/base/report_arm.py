@@ -1,0 +1,71 @@
+"""The real arm beside its description, as JSON and as text."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from app.calibration.base.sixaxis import ArmGeometry, Quantity
+from app.units import deg, mm
+
+_NAMES = {
+    "a": "distance of axes",
+    "twist": "angle of axes",
+    "lean": "lean of axes",
+    "d": "step along axis",
+    "zero": "zero of joint",
+}
+
+
+def _in(quantity: Quantity, value: float | None) -> float | None:
+    if value is None:
+        return None
+    return deg(value) if quantity.angular else mm(value)
+
+
+def arm_json(arm: ArmGeometry) -> dict[str, Any]:
+    """Lengths in mm, angles in degrees."""
+    return {
+        "quantities": [
+            {
+                "name": q.name,
+                "axis": q.axis,
+                "unit": "deg" if q.angular else "mm",
+                "measured": _in(q, q.measured),
+                "sigma": _in(q, q.sigma),
+                "nominal": _in(q, q.nominal),
+                "error": _in(q, q.error),
+            }
+            for q in arm.quantities
+        ],
+        "turning": [
+            {"axis": t.axis, "slope": t.slope, "sigma": t.sigma, "scatter_deg": deg(t.scatter)}
+            for t in arm.turning
+        ],
+    }
+
+
+def arm_text(arm: ArmGeometry) -> str:
+    """One row a dimension; what stands out by more than three sigma is marked."""
+    lines = [
+        "  the arm, axis by axis",
+        f"  {'':<23}{'measured':>12}{'± sigma':>10}{'described':>12}{'error':>10}",
+    ]
+    for q in arm.quantities:
+        pair = f"{q.axis} and {q.axis + 1}" if q.name in ("a", "twist", "lean") else f"{q.axis}"
+        unit = "deg" if q.angular else "mm"
+        nominal, error = _in(q, q.nominal), _in(q, q.error)
+        beside = (
+            f"{'-':>12}{'-':>10}" if nominal is None or error is None else f"{nominal:>12.3f}{error:>+10.4f}"
+        )
+        telling = q.error is not None and abs(q.error) > 3.0 * q.sigma
+        lines.append(
+            f"  {_NAMES[q.name]:<17}{pair:<8}{_in(q, q.measured):>10.4f}{_in(q, q.sigma):>10.4f}{beside} {unit}"
+            f"{'  *' if telling else ''}"
+        )
+    lines += [
+        f"  axis {t.axis} turns {t.slope:.6f} ± {t.sigma:.6f} times what is shown, within {deg(t.scatter):.4f} degrees"
+        for t in arm.turning
+    ]
+    if any(q.error is not None for q in arm.quantities):
+        lines.append("  * more than three sigma from the description")
+    return "\n".join(lines)

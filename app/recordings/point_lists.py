@@ -1,0 +1,209 @@
+"""What tracker programs export: lines of a point's name and its coordinates, in whatever dialect.
+
+Shared by the readers of single programs. A dialect is a delimiter (tab, semicolon, comma, spaces), a decimal sign
+(a comma is one only where it does not part cells) and a unit, which must be said: in the column's name, in a line of
+its own, or by whoever asks for the file.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+import polars as pl
+
+from app.errors import CellValueError, FileFormatError, MissingColumnError
+from app.recordings.table import Table
+
+KIND = "tracker_points"
+UNITS = {
+    "mm": "mm",
+    "millimeter": "mm",
+    "millimeters": "mm",
+    "millimetre": "mm",
+    "millimetres": "mm",
+    "m": "m",
+    "meter": "m",
+    "meters": "m",
+    "metre": "m",
+    "metres": "m",
+}
+_UNIT_LINE = re.compile(r"\b(?:units?|einheit(?:en)?)\b[^A-Za-z]*([A-Za-z]+)", re.IGNORECASE)
+_IN_NAME = re.compile(r"[\[(]\s*([A-Za-z]+)\s*[\])]|[\s_]([A-Za-z]+)$")
+_NUMBER = re.compile(r"[+-]?(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][+-]?\d+)?\Z")
+_OWN = re.compile(r"(?:^|,)\s*(?:q[1-8](?:_|,|$)|role\b|axis\b|t_s\b|[xyz]_m{1,2}\b)")
+_LONGEST = 50_000_000  # bytes: a point list is not longer
+
+
+@dataclass(frozen=True)
+class Line:
+    """One line: its number in the file and its cells."""
+
+    number: int
+    cells: tuple[str, ...]
+
+
+def read_text(path: Path) -> str:
+    """The file as text: UTF-8, or the code page Windows programs write.
+
+    Raises:
+        FileFormatError: binary, or too long for a list of points.
+    """
+    if path.stat().st_size > _LONGEST:
+        raise FileFormatError("too long for a list of points", file=path, expected="a point export")
+    data = path.read_bytes()
+    if b"\x00" in data:
+        row = 1 + data[: data.index(b"\x00")].count(b"\n")
+        raise FileFormatError("binary content", file=path, row=row, expected="text")
+    try:
+        return data.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        return data.decode("cp1252", errors="replace")
+
+
+def unit_said(lines: Sequence[str]) -> str | None:
+    """The unit a line such as `Units: mm` states, or None."""
+    for line in lines:
+        match = _UNIT_LINE.search(line)
+        if match and match.group(1).lower() in UNITS:
+            return UNITS[match.group(1).lower()]
+    return None
+
+
+def unit_of(name: str) -> str | None:
+    """The unit in a column's name: `X [mm]`, `X(m)`, `x_mm`, `X mm`."""
+    match = _IN_NAME.search(name.strip())
+    return UNITS.get((match.group(1) or match.group(2)).lower()) if match else None
+
+
+def bare(name: str) -> str:
+    """A column's name without unit, case and ornaments: `X [mm]` -> `x`, `Point ID` -> `pointid`."""
+    without = re.sub(r"[\[(].*?[\])]", "", name)
+    parts = [p for p in re.split(r"[\s_.\-:#/\"]+", without.lower()) if p and p not in UNITS]
+    return "".join(
+        p for p in parts if p not in ("actual", "act", "measured", "meas", "ist", "coordinate", "coord")
+    )
+
+
+def delimiter_of(lines: Sequence[str]) -> str | None:
+    """Tab, semicolon or comma, whichever parts most lines; None for spaces."""
+    for sign in ("\t", ";"):
+        if sum(sign in line for line in lines) > len(lines) / 2:
+            return sign
+    if sum(line.count(",") >= 3 for line in lines) > len(lines) / 2:
+        return ","
+    return None
+
+
+def split(line: str, delimiter: str | None) -> tuple[str, ...]:
+    """Cells of a line, without quotes and blanks around them."""
+    cells = line.split() if delimiter is None else line.split(delimiter)
+    return tuple(cell.strip().strip('"').strip() for cell in cells)
+
+
+def is_number(cell: str) -> bool:
+    """True for a number with a point or a comma in it."""
+    return bool(_NUMBER.match(cell))
+
+
+def number(cell: str, *, path: Path, row: int, column: str) -> str:
+    """A cell's number with a decimal point.
+
+    Raises:
+        CellValueError: no number.
+    """
+    if not is_number(cell):
+        found = f"found {cell[:40]!r}" if cell else "the cell is empty"
+        raise CellValueError(found, file=path, row=row, column=column, expected="a number")
+    return cell.replace(",", ".")
+
+
+def headed(path: Path, text: str, name_columns: frozenset[str], source: str) -> Table:
+    """A list with a header row that names a point column and X, Y, Z, after any number of lines of preface.
+
+    Raises:
+        FileFormatError: no such header row. CellValueError, MissingColumnError: by place.
+    """
+    lines = text.splitlines()
+    found = header_line(lines, name_columns)
+    if found is None:
+        raise FileFormatError("no header row", file=path, expected="a point's name, X, Y, Z")
+    at, delimiter = found
+    cells = split(lines[at], delimiter)
+    names = [bare(cell) for cell in cells]
+    name_at = next(k for k, name in enumerate(names) if name in name_columns)
+    places = []
+    for axis in "xyz":
+        if axis not in names:
+            raise MissingColumnError(
+                "this column is missing", file=path, row=at + 1, column=axis.upper(), expected="X, Y and Z"
+            )
+        places.append(names.index(axis))
+    units = {unit_of(cells[k]) for k in places}
+    unit = units.pop() if len(units) == 1 else None
+    rows = []
+    for k, line in enumerate(lines[at + 1 :], at + 2):
+        if not line.strip() or line.lstrip().startswith(("//", "#")):
+            continue
+        row = split(line, delimiter)
+        if len(row) <= max(name_at, *places):
+            raise FileFormatError(
+                f"{len(row)} cells", file=path, row=k, expected=f"{len(cells)} as in the header row"
+            )
+        xyz = tuple(number(row[p], path=path, row=k, column=cells[p]) for p in places)
+        rows.append((k, row[name_at], xyz))
+    return point_table(path, rows, unit or unit_said(lines[: at + 1]), source, at + 1)
+
+
+def own_header(line: str) -> bool:
+    """True for a header row of this program's own files, which are read as such even where a unit is missing."""
+    return bool(_OWN.search(line))
+
+
+def header_line(lines: Sequence[str], name_columns: frozenset[str]) -> tuple[int, str | None] | None:
+    """Index and delimiter of the first line that names a point column and at least X and Y."""
+    for k, line in enumerate(lines[:100]):
+        for sign in ("\t", ";", ",", None):
+            names = {bare(cell) for cell in split(line, sign)}
+            if {"x", "y"} <= names and names & name_columns:
+                return k, sign
+    return None
+
+
+def point_table(
+    path: Path,
+    rows: Sequence[tuple[int, str, tuple[str, ...]]],
+    unit: str | None,
+    source: str,
+    header_row: int,
+) -> Table:
+    """A Table of kind `tracker_points` with the columns name, x, y, z; without a unit its columns cannot be read.
+
+    Raises:
+        FileFormatError: no rows.
+    """
+    if not rows:
+        raise FileFormatError("no data rows", file=path, row=header_row, expected="at least one point")
+    suffix = f"_{unit}" if unit else ""
+    names = ("name", f"x{suffix}", f"y{suffix}", f"z{suffix}")
+    frame = pl.DataFrame(
+        [[name for _, name, _ in rows], *([xyz[k] for _, _, xyz in rows] for k in range(3))],
+        schema=dict.fromkeys(names, pl.String),
+    )
+    lines = np.array([k for k, _, _ in rows], int)
+    return Table(
+        path, {"kind": KIND, "source": source, "__header_row__": header_row}, names, lambda: (frame, lines)
+    )
+
+
+def with_unit(table: Table, unit: str) -> Table:
+    """The same list, its coordinates read in `unit` (`mm` or `m`) where the file itself does not say."""
+    if table.kind != KIND or "x" not in table.names:
+        return table
+    frame, lines = table.load()
+    names = ("name", *(f"{axis}_{unit}" for axis in "xyz"))
+    renamed = frame.rename(dict(zip(table.names, names, strict=True)))
+    return replace(table, names=names, load=lambda: (renamed, lines))
