@@ -104,3 +104,15 @@ def truth_path(recording: Path) -> Path:
         if recording.suffix
         else recording.with_name(recording.name + ".truth.json")
     )
+
+
+def read_rows(path: Path) -> tuple[dict[str, str], dict[str, list[str]]]:
+    """Header keys and columns of a file written here, as text."""
+    lines = path.read_text(encoding="utf-8").splitlines()
+    header = {}
+    while lines[0].startswith("#"):
+        key, _, value = lines.pop(0).lstrip("# ").partition(": ")
+        header[key] = value
+    names = lines.pop(0).split(",")
+    cells = zip(*(line.split(",") for line in lines), strict=True)
+    return header, {name: list(column) for name, column in zip(names, cells, strict=True)}

@@ -93,6 +93,7 @@ class World:
         tool: (m, 3) displacement of the tool points in the flange [m].
         scale: factor on what the instrument measures.
         reach: what the instrument reads too long along its beam [m].
+        bend: what it reads too low at one metre, growing with the square of the distance [m].
         depth: how far the tip sinks in, along the flange's Z [m].
         flipped: (n,) -1 where the joint is shown with the wrong sign.
         torque: (m, n) torque on top of the described load [Nm].
@@ -107,6 +108,7 @@ class World:
     torque: np.ndarray
     scale: float = 1.0
     reach: float = 0.0
+    bend: float = 0.0
     depth: float = 0.0
 
 
@@ -165,7 +167,8 @@ def seen(cell: Cell, world: World) -> np.ndarray:
     view = cell.views[cell.session]
     points = np.einsum("mij,mkj->mki", view[:, :3, :3], tips(cell, world)) + view[:, None, :3, 3]
     distance = np.linalg.norm(points, axis=-1, keepdims=True)
-    return points * world.scale + world.reach * points / np.where(distance > 0, distance, 1.0)
+    low = world.bend * distance**2 * np.array([0.0, 0.0, -1.0])
+    return points * world.scale + world.reach * points / np.where(distance > 0, distance, 1.0) + low
 
 
 def effect_on_points(cell: Cell, terms: Sequence[Term], term: Term) -> np.ndarray:

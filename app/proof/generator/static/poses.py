@@ -68,7 +68,7 @@ def touching_poses(
 
 def _around(arm, tip, reference, count, rng):
     low, high = comfortable(arm)
-    q0 = np.clip(reference + rng.normal(0, 0.15, arm.n) * np.where(arm.slides, 0.1, 1.0), low, high)
+    q0 = np.clip(reference + rng.normal(0, 0.4, arm.n) * np.where(arm.slides, 0.1, 1.0), low, high)
     first = stance(arm, q0[None])
     target = first.flange_places[0] + first.flange_rotations[0] @ tip
     came = first.flange_rotations[0, :, 2]

@@ -1,0 +1,93 @@
+"""Draws sealed static cases: recordings into a folder, answers back to the one who seals them."""
+
+from __future__ import annotations
+
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from app import catalog
+from app.errors import InputError
+from app.proof.draft import Draft, Stratum
+from app.proof.generator.files import term_json, write_static
+from app.proof.generator.static.clutter import as_built, misweighed
+from app.proof.generator.static.making import Made, make
+from app.proof.generator.static.visibility import visibility
+from app.proof.generator.urdf_writing import write_arm
+from app.proof.matching import ALIKE
+from app.units import mm
+
+STRATA = "app.proof.strata.static"
+TOPOLOGIES = "app.proof.generator.topologies"
+#: Arms whose tool can lean every way; the four-axis ones cannot, and are left to `simulate`.
+FAMILIES = ("spherical_wrist", "offset_wrist", "seven_axes")
+ATTEMPTS = 40
+
+
+def strata_of(package: str, count: int) -> list[str]:
+    """Which stratum each of `count` cases belongs to, by their shares; every stratum at least once."""
+    strata = catalog.members(package, "STRATUM")
+    total = sum(s.share for s in strata.values())
+    out: list[str] = []
+    for key, stratum in strata.items():
+        out += [key] * max(1, round(count * stratum.share / total))
+    largest = max(strata, key=lambda key: strata[key].share)
+    while len(out) < count:
+        out.append(largest)
+    while len(out) > count and out.count(largest) > 1:
+        out.remove(largest)
+    return out[:count]
+
+
+def draw_static(seed: int, index: int, stratum_key: str, folder: Path) -> dict[str, Any]:
+    """Makes case `index` of a run; the recording and description go to `folder`, the answer is returned."""
+    stratum: Stratum = catalog.member(STRATA, "STRATUM", stratum_key, what="stratum")
+    rng = np.random.default_rng([seed, index])
+    made, draft, topology = _make(stratum, rng)
+    name = f"case_{index:04d}"
+    write_arm(made.cell.described.changed(name=name), folder / f"{name}.urdf")
+    write_static(made, folder / f"{name}.csv", f"{name}.urdf")
+    return answer_of(made, draft, {"id": name, "stratum": stratum_key, "topology": topology})
+
+
+def _make(stratum: Stratum, rng: np.random.Generator) -> tuple[Made, Draft, str]:
+    for _ in range(ATTEMPTS):
+        topology = str(rng.choice(FAMILIES))
+        described = catalog.member(TOPOLOGIES, "TOPOLOGY", topology, what="topology").draw(rng)
+        draft = stratum.draft(rng)
+        arm = as_built(described, draft.clutter, rng) if draft.clutter else described
+        arm = misweighed(arm, draft.wrong_masses, rng) if draft.wrong_masses else arm
+        try:
+            return make(draft.plan, arm, described, draft.requests, rng), draft, topology
+        except InputError:  # this arm cannot carry this effect, or cannot touch so many times
+            continue
+    raise InputError(f"stratum {stratum.key} drew no case that can be made")
+
+
+def answer_of(made: Made, draft: Draft, names: dict[str, Any]) -> dict[str, Any]:
+    """Everything the scorer needs to know, JSON types only."""
+    truths = []
+    for index, (term, raw) in enumerate(zip(made.terms, made.raw_rms, strict=True)):
+        seen = visibility(made, index, geometry=draft.clutter > 0, limit=ALIKE)
+        truths.append(
+            {
+                **term_json(term),
+                "raw_rms_mm": mm(raw),
+                "survives": seen.survives,
+                "nearest": seen.nearest,
+                "lookalikes": list(seen.lookalikes),
+            }
+        )
+    plan = asdict(made.plan)
+    return {
+        **names,
+        "kind": made.plan.kind,
+        "truth": truths,
+        "noise_mm": mm(made.plan.noise),
+        "clutter_mm": mm(draft.clutter),
+        "wrong_masses": draft.wrong_masses,
+        "outlier_rows": [int(i) + 1 for i in made.outliers],
+        "plan": {k: list(v) if isinstance(v, tuple) else v for k, v in plan.items()},
+    }

@@ -1,0 +1,47 @@
+"""What differs between proving the static and the motion diagnosis."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from app import catalog
+from app.proof import controls, drawing
+from app.proof.generator.static.cell import OUTSIDE
+
+
+@dataclass(frozen=True)
+class Family:
+    """One family of recordings.
+
+    Args:
+        strata: package of its strata.
+        outside: package of the laws no library holds.
+        draw: makes one case.
+        draw_control: makes one negative control; `controls` are their kinds and titles.
+    """
+
+    key: str
+    strata: str
+    outside: str
+    draw: Callable[[int, int, str, Path], dict[str, Any]]
+    draw_control: Callable[[int, int, str, Path], controls.Control]
+    controls: dict[str, str]
+
+    def strange(self) -> frozenset[str]:
+        """Effects that no library holds."""
+        return frozenset(catalog.members(self.outside, "EFFECT"))
+
+
+FAMILIES = {
+    "static": Family(
+        "static",
+        drawing.STRATA,
+        OUTSIDE,
+        drawing.draw_static,
+        controls.draw_control,
+        controls.TITLES,
+    ),
+}

@@ -1,0 +1,114 @@
+"""How much of an effect survives the ordinary calibration, and which other laws look the same here."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from app.proof.generator.effects.term import Term
+from app.proof.generator.static.cell import world_with
+from app.proof.generator.static.columns import STEPS, nuisance_columns, places, reading, term_columns
+from app.proof.generator.static.making import Made
+
+RANK = 1e-8  # relative to the largest singular value
+
+
+@dataclass(frozen=True)
+class Visibility:
+    """What is left of one effect after everything open was fitted.
+
+    Args:
+        survives: rms of what remains over one-sigma noise, all measured components.
+        norm: its length over the noise.
+        nearest: how much of it the most similar other law of the library leaves over, over the noise.
+        lookalikes: laws and places that differ from it by less than `limit`, with that difference.
+    """
+
+    survives: float
+    norm: float
+    nearest: float
+    lookalikes: tuple[Mapping[str, Any], ...]
+
+
+class Projector:
+    """Takes away what the open quantities can imitate."""
+
+    def __init__(self, columns: np.ndarray):
+        scale = np.linalg.norm(columns, axis=0)
+        columns = columns[:, scale > 0] / scale[scale > 0]
+        u, s, _ = np.linalg.svd(columns, full_matrices=False)
+        self.basis = u[:, s > RANK * s[0]] if s.size else u
+
+    def __call__(self, columns: np.ndarray) -> np.ndarray:
+        return columns - self.basis @ (self.basis.T @ columns)
+
+
+def visibility(made: Made, index: int, *, geometry: bool, limit: float) -> Visibility:
+    """Of the effect `index` of a recording, the other effects' strengths being open too.
+
+    Args:
+        geometry: all geometry is open, not only base, tool and targets.
+        limit: difference (length over noise) below which nobody can tell two explanations apart.
+    """
+    term = made.terms[index]
+    others = [t for i, t in enumerate(made.terms) if i != index]
+    effect = reading(made.cell, world_with(made.cell, made.terms), made)
+    effect = effect - reading(made.cell, world_with(made.cell, others), made)
+    columns = [nuisance_columns(made, others, geometry=geometry)]
+    columns += [c for other in others if (c := term_columns(made, others, other)).size]
+    project = Projector(np.hstack(columns))
+    left = project(effect.ravel())
+    norm = float(np.linalg.norm(left))
+    gaps = [
+        {"effect": other.effect, "where": dict(other.where), "gap": gap}
+        for other, gap in _gaps(made, others, project, left)
+        if not _same(other, term)
+    ]
+    # where nothing is left of the effect there is nothing to mistake for another
+    alike = tuple(g for g in gaps if g["gap"] < min(limit, 0.5 * norm))
+    nearest = min((g["gap"] for g in gaps), default=norm)
+    return Visibility(norm / np.sqrt(left.size), norm, nearest, alike)
+
+
+def _gaps(
+    made: Made, others: Sequence[Term], project: Projector, left: np.ndarray
+) -> Iterator[tuple[Term, float]]:
+    """Every law at every place, steps at their best row, and what each leaves of the effect."""
+    for candidate in places(made):
+        columns = term_columns(made, others, candidate)
+        if candidate.effect in STEPS:
+            row, gap = _best_row(made.cell.m, columns, project, left)
+            yield replace(candidate, where={**candidate.where, "from_row": row}), gap
+        else:
+            yield candidate, _gap(project(columns), left)
+
+
+def _best_row(m: int, columns: np.ndarray, project: Projector, left: np.ndarray) -> tuple[int, float]:
+    """Row from which on the columns explain most, and what they leave."""
+    parts = columns.reshape(m, -1, columns.shape[1])
+    best, best_row = np.inf, 2
+    for row in range(2, m + 1):
+        masked = parts * (np.arange(1, m + 1) >= row)[:, None, None]
+        gap = _gap(project(masked.reshape(-1, columns.shape[1])), left)
+        if gap < best:
+            best, best_row = gap, row
+    return best_row, float(best)
+
+
+def _gap(columns: np.ndarray, left: np.ndarray) -> float:
+    """Length of what the columns cannot explain of `left`."""
+    length = np.linalg.norm(columns, axis=0)
+    columns = columns[:, length > 1e-9] / length[length > 1e-9]
+    if not columns.size:
+        return float(np.linalg.norm(left))
+    answer = np.linalg.lstsq(columns, left, rcond=1e-9)[0]
+    return float(np.linalg.norm(left - columns @ answer))
+
+
+def _same(a: Term, b: Term) -> bool:
+    """The same law at the same place; a step's row does not count."""
+    keys = (set(a.where) | set(b.where)) - {"from_row"}
+    return a.effect == b.effect and all(a.where.get(k) == b.where.get(k) for k in keys)

@@ -1,0 +1,192 @@
+"""The proof from seed to scorecard: draw, seal, ask, open, score."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import platform
+from collections.abc import Callable, Sequence
+from dataclasses import asdict, dataclass
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
+
+from app import __version__
+from app.errors import InputError
+from app.proof.asking import ask, everywhere
+from app.proof.controls import named
+from app.proof.drawing import strata_of
+from app.proof.families import FAMILIES
+from app.proof.intervals import Rate
+from app.proof.scoring import Score, heldout_summary, score
+from app.proof.verdicts import Judged, judge
+
+Say = Callable[[str], None]
+MOST = 100_000
+
+
+@dataclass(frozen=True)
+class Proof:
+    """A finished run.
+
+    Args:
+        seal: SHA-256 of the answers' file, printed before anything was asked.
+        controls: kind -> how often something was named, and what.
+    """
+
+    family: str
+    seed: int
+    command: str
+    seal: str
+    score: Score
+    judged: Sequence[Judged]
+    controls: dict[str, tuple[Rate, list[str]]]
+    seconds: float
+    versions: dict[str, str]
+
+
+def prove(
+    family_key: str,
+    cases: int,
+    seed: int,
+    out: Path,
+    *,
+    tell: Say,
+    say: Say,
+    workers: int | None = None,
+    with_controls: bool = True,
+) -> Proof:
+    """Runs the proof; `tell` gets what belongs on stdout, `say` the progress.
+
+    Raises:
+        InputError: no such family, or a number of cases that cannot be.
+    """
+    family = FAMILIES.get(family_key)
+    if family is None:
+        raise InputError(f"nothing to prove about {family_key!r}", expected=" or ".join(FAMILIES))
+    if not 1 <= cases <= MOST:
+        raise InputError(f"{cases} cases", expected=f"1 to {MOST}")
+    folder = out / "recordings"
+    folder.mkdir(parents=True, exist_ok=True)
+    strata = strata_of(family.strata, cases)
+    jobs = [(seed, index, stratum, folder) for index, stratum in enumerate(strata)]
+    answers = everywhere(family.draw, jobs, lambda share: say(f"drawing {share:4.0%}"), workers)
+    sealed = out / "answers.json"
+    sealed.write_text(json.dumps(answers, indent=1) + "\n", encoding="utf-8")
+    seal = _seal(sealed)
+    tell(f"seed {seed}, {cases} cases; SHA-256 of the answers before anything is asked: {seal}")
+    paths = [(folder / f"{a['id']}.csv",) for a in answers]
+    del answers
+    said = everywhere(ask, paths, lambda share: say(f"asking  {share:4.0%}"), workers)
+    (out / "said.json").write_text(json.dumps(said, indent=1) + "\n", encoding="utf-8")
+    if _seal(sealed) != seal:
+        raise InputError("the answers were changed while the questions were asked", file=sealed)
+    opened = json.loads(sealed.read_text(encoding="utf-8"))
+    strange = family.strange()
+    judged = [judge(a, s, strange) for a, s in zip(opened, said, strict=True)]
+    each = max(4, cases // 25)
+    found = _controls(family, seed, each, folder, say, workers) if with_controls else {}
+    return Proof(
+        family=family_key,
+        seed=seed,
+        command=f"teachframe prove {family_key} --cases {cases} --seed {seed}",
+        seal=seal,
+        score=score(judged, family_key),
+        judged=judged,
+        controls=found,
+        seconds=sum(s["wall_seconds"] for s in said),
+        versions={
+            "teachframe": __version__,
+            "python": platform.python_version(),
+            "numpy": version("numpy"),
+            "pin": version("pin"),
+            "machine": platform.machine(),
+        },
+    )
+
+
+def _controls(family, seed, each, folder, say, workers):
+    jobs = [(seed, index, kind, folder) for kind in family.controls for index in range(each)]
+    drawn = everywhere(family.draw_control, jobs, lambda share: say(f"controls {share:4.0%}"), workers)
+    asked = [(c.path, c.without) for c in drawn]
+    said = everywhere(ask, asked, lambda share: say(f"controls {share:4.0%}"), workers)
+    found = {}
+    for kind in family.controls:
+        pairs = [(c, s) for c, s in zip(drawn, said, strict=True) if c.kind == kind]
+        wrong = [
+            f"{c.path.stem} ({c.truth}): {', '.join(named(s))} ({s.get('verdict')})"
+            for c, s in pairs
+            if named(s)
+        ]
+        found[kind] = (Rate(len(wrong), len(pairs)), wrong)
+    return found
+
+
+def _seal(path: Path) -> str:
+    return hashlib.sha256(path.read_bytes()).hexdigest()
+
+
+def as_json(proof: Proof) -> dict[str, Any]:
+    """The scorecard as data."""
+    return {
+        "format": "teachframe.proof/1",
+        "family": proof.family,
+        "seed": proof.seed,
+        "command": proof.command,
+        "answers_sha256": proof.seal,
+        "versions": proof.versions,
+        "lines": [
+            {**asdict(line), "value": line.rate.value, "interval": line.rate.interval, "met": line.met}
+            for line in proof.score.lines
+        ],
+        "confusion": proof.score.confusion,
+        "heldout": heldout_summary([v for _, v in proof.score.heldout]),
+        "coverage": {k: _rate(v) for k, v in proof.score.coverage.items()},
+        "effects": {
+            name: {"place": _rate(p), "name": _rate(n), "set": _rate(s)}
+            for name, p, n, s in proof.score.effects
+        },
+        "controls": {k: {**_rate(r), "named": w} for k, (r, w) in proof.controls.items()},
+        "failures": [failure(case) for case in proof.judged if failed(case)],
+        "seconds_of_diagnosis": proof.seconds,
+    }
+
+
+def _rate(rate: Rate) -> dict[str, Any]:
+    return {**asdict(rate), "value": rate.value, "interval": rate.interval}
+
+
+def failed(case: Judged) -> bool:
+    """Something was said that is not so, or not said that could be."""
+    if case.verdict == "error":
+        return True
+    return bool(case.false) or not all(case.name)
+
+
+def failure(case: Judged) -> dict[str, Any]:
+    """One failure, as plain as it can be put."""
+    truth = [
+        f"{t['effect']} {_where(t['where'])} (survives {t['survives']:.1f} sigma, "
+        f"nearest other {t['nearest']:.1f})"
+        for t in case.answer["truth"]
+    ]
+    said = [
+        f"{f['effect']} {_where(f['where'])}"
+        + (" [true]" if f not in case.false else "")
+        + (f" or {len(f['alternatives'])} others" if f.get("alternatives") else "")
+        for f in case.findings
+    ]
+    return {
+        "case": case.answer["id"],
+        "stratum": case.answer["stratum"],
+        "recording": f"{case.answer['kind']}, {case.answer['topology']}",
+        "true": "; ".join(truth) or "nothing",
+        "verdict": case.verdict,
+        "said": case.said.get("error") or "; ".join(said) or "nothing",
+        "leftover": (case.said.get("leftover") or {}).get("where") or {},
+        "in_set": list(case.listed),
+    }
+
+
+def _where(where: dict[str, Any]) -> str:
+    return " ".join(f"{key}={value}" for key, value in where.items())

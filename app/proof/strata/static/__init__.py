@@ -1,0 +1,1 @@
+"""Strata of touches and tracker recordings."""
