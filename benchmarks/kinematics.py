@@ -7,29 +7,17 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
 
 import numpy as np
 import pinocchio as pin
 
 from app.geometry import Pose
 from app.kinematics import CollisionWorld, load_robot, solve_ik
+from app.kinematics.shapes import box, floor, rod
+from app.kinematics.solids import tool_shapes
+from benchmarks.rows import Row
 
 ROUNDS, CALLS = 40, 50
-
-
-@dataclass(frozen=True)
-class Row:
-    """One line of the table; both times of one call [s]; ratio below 1 means that ours is quicker."""
-
-    name: str
-    ours: float
-    peer: float
-    peer_name: str
-
-    @property
-    def ratio(self) -> float:
-        return self.ours / self.peer if self.peer else float("nan")
 
 
 def quickest(*functions: Callable[[int], object]) -> list[float]:
@@ -79,19 +67,29 @@ def run() -> list[Row]:
         lambda i: solve_ik(robot, targets[i], robot.home),
         lambda i: plain_inverse(model, data, frame, plain_targets[i], robot.home),
     )
-    rows.append(Row("inverse kinematics, drag step of 5 mm", ours, plain, "plain pin, damped"))
+    rows.append(Row("inverse kinematics, drag step of 5 mm", ours, plain, "plain pin, damped", aim=1e-4))
     ours, plain = quickest(
         lambda i: solve_ik(robot, tool_targets[i], robot.home, T_flange_tool=tool),
         lambda i: plain_inverse(model, data, frame, plain_targets[i], robot.home),
     )
-    rows.append(Row("the same, aiming the tool point", ours, plain, "plain pin, damped (flange)"))
+    rows.append(Row("the same, aiming the tool point", ours, plain, "plain pin, damped (flange)", aim=1e-4))
     begin = time.perf_counter()
     chain.frames(many)
     batch = (time.perf_counter() - begin) / len(many)
     rows.append(Row("forward kinematics in a batch of 2000", batch, rows[0].peer, "plain pin in a loop"))
-    world = CollisionWorld(robot)
-    ours, plain = quickest(lambda i: world.check(angles[i]), plain_forward)
-    rows.append(Row("collision check, arm with itself", ours, plain, "plain pin, forward only"))
+    things = [
+        floor(-0.01),
+        box((0.6, 0.6, 0.4), (1.3, 0.0, 0.2), link="table"),
+        rod((1.3, 0.0, 0.4), (1.3, 0.0, 0.6), 0.02, 0.0, link="spike"),
+        box((0.05, 3.0, 2.0), (-1.5, 0.0, 1.0), link="fence"),
+    ]
+    world = CollisionWorld(robot, tool_shapes=tool_shapes(robot), obstacles=things)
+    near = robot.home + rng.normal(0, 0.1, (CALLS, 6))
+    ours, plain = quickest(lambda i: world.check(near[i]), lambda i: world._distances(near[i]))
+    pairs = len(world.pairs)
+    rows.append(Row(f"collision check, {pairs} pairs", ours, plain, "pin, distances of all pairs", aim=1e-4))
+    ours, plain = quickest(lambda i: world.distance(near[i]), lambda i: world._distances(near[i]))
+    rows.append(Row("nearest pair and its distance", ours, plain, "pin, distances of all pairs", aim=1e-4))
     return rows
 
 

@@ -17,6 +17,7 @@ from app.kinematics.shapes import Shape, ball, read_shapes, rod
 
 _CHAMFER = 0.12  # of a solid's smallest extent
 _LARGEST_CHAMFER = 0.012  # m
+_SMALL = 0.03  # m: rods thinner than this keep their edges, nobody sees them
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,13 +82,18 @@ def outline(shape: Shape, chamfer: float = _CHAMFER) -> np.ndarray:
         half = np.array(shape.size) / 2
         cut = min(chamfer * 2 * half.min(), _LARGEST_CHAMFER)
         signs = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], float)
+        if cut == 0:
+            return signs * half
         return np.concatenate([signs * (half - cut * (np.arange(3) != axis)) for axis in range(3)])
     bottom, length, top = shape.size
     rings = []
+    if max(bottom, top) < _SMALL:
+        chamfer = 0.0
     for radius, z, inwards in ((bottom, -length / 2, 1.0), (top, length / 2, -1.0)):
         cut = min(chamfer * min(2 * radius, length), _LARGEST_CHAMFER)
-        for r, height in ((radius - cut, z), (radius, z + inwards * cut)):
-            rings.append(_ring(max(r, 1e-4), height))
+        if cut > 0:
+            rings.append(_ring(max(radius - cut, 1e-4), z))
+        rings.append(_ring(max(radius, 1e-4), z + inwards * cut))
     return np.concatenate(rings)
 
 
@@ -141,13 +147,13 @@ def _on(body: int, shape: Shape) -> Shape:
 
 
 def _ring(radius: float, z: float) -> np.ndarray:
-    count = 12 if radius < 0.02 else 20 if radius < 0.06 else 28
+    count = 8 if radius < 0.015 else 12 if radius < 0.03 else 18 if radius < 0.08 else 24
     angle = np.arange(count) * (2 * np.pi / count)
     return np.stack([radius * np.cos(angle), radius * np.sin(angle), np.full(count, z)], axis=1)
 
 
 def _sphere_points(radius: float) -> np.ndarray:
-    rings = 7 if radius < 0.04 else 11
+    rings = 3 if radius < 0.03 else 7 if radius < 0.08 else 11
     polar = np.linspace(0, np.pi, rings + 2)[1:-1]
     around = [_ring(radius * np.sin(p), radius * np.cos(p)) for p in polar]
     return np.concatenate([*around, [[0, 0, radius], [0, 0, -radius]]])
