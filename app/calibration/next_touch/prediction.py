@@ -1,0 +1,49 @@
+"""What touches of given orientations will tell about the tool point; positions and results do not enter.
+
+covariance = noise^2 (n I - n Rm^T Rm)^-1,    Rm the mean of the n flange rotations
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from app.units import from_mm
+
+#: One-sigma noise of a touch on one axis before any is known [m]: a careful hand.
+USUAL_NOISE = from_mm(0.3)
+_SINGULAR = 1e-12
+
+
+def information(total: np.ndarray, count: int) -> np.ndarray:
+    """n I - S^T S / n for the sum S of n rotations; (..., 3, 3) -> (..., 3, 3)."""
+    return count * np.eye(3) - np.swapaxes(total, -1, -2) @ total / count
+
+
+def predicted_covariance(rotations: np.ndarray, noise: float = USUAL_NOISE) -> np.ndarray:
+    """(3, 3) of the tool point in the flange [m^2]; infinite while it is not determined.
+
+    Args:
+        rotations: (n, 3, 3) of the flange, made or planned.
+        noise: one-sigma of one touch on one axis [m].
+    """
+    count = len(rotations)
+    if count >= 3:
+        matrix = information(np.sum(rotations, axis=0), count)
+        if np.linalg.eigvalsh(matrix)[0] > _SINGULAR:
+            return noise**2 * np.linalg.inv(matrix)
+    return np.diag(np.full(3, np.inf))
+
+
+def predicted_error(rotations: np.ndarray, noise: float = USUAL_NOISE) -> float:
+    """Root mean square length of the tool point's error [m]; inf while it is not determined."""
+    return float(np.sqrt(np.trace(predicted_covariance(rotations, noise))))
+
+
+def inverse_trace(matrices: np.ndarray) -> np.ndarray:
+    """trace(M^-1) of symmetric (..., 3, 3) in closed form; huge where singular."""
+    a, b, c = matrices[..., 0, 0], matrices[..., 0, 1], matrices[..., 0, 2]
+    d, e, f = matrices[..., 1, 1], matrices[..., 1, 2], matrices[..., 2, 2]
+    first, second, third = d * f - e * e, b * f - c * e, b * e - c * d
+    determinant = a * first - b * second + c * third
+    sums = first + a * f - c * c + a * d - b * b
+    return np.where(determinant > _SINGULAR, sums / np.maximum(determinant, _SINGULAR), 1e12)
