@@ -271,7 +271,7 @@ class Pendant:
             _LOG.error("a job failed", exc_info=error)
             words = one_line(f"{type(error).__name__}: {error}", 160)
             self.say("error", self.t("message.fault", what=words))
-        self.page.refresh(self.session.state)
+        self.page.refresh(self.session.state)  # what was entered goes back to what is so
 
     def _travel(
         self, stops: list[np.ndarray], arrived: Callable[[int], None], rest: float = 0.0

@@ -6,7 +6,7 @@ import numpy as np
 import viser
 
 from app.pendant.arm import ArmView, draw_shapes, pointer_shapes
-from app.pendant.scene.camera import VIEWS, look
+from app.pendant.scene.camera import MORE_VIEWS, VIEWS, look
 from app.pendant.scene.cell import draw_cell
 from app.pendant.scene.ground import lay_floor, light_up
 from app.pendant.scene.handle import Dragged, Handle
@@ -14,6 +14,7 @@ from app.pendant.scene.marks import Marks
 from app.pendant.scene.residuals import Residuals
 from app.pendant.scene.tool_axes import ToolAxes
 from app.session import SessionState
+from app.session.state import accepted
 from app.simulation.world import World
 
 _HANDLE = 0.13  # size of the handle, as a share of the reach
@@ -45,7 +46,7 @@ class Stage:
         self.marks = Marks(self._scene)
         self.residuals = Residuals(self._scene)
         self.axes = ToolAxes(self._scene, self.arm.flange_path)
-        self.show_marks, self.show_residuals = True, True
+        self.show_handle = self.show_marks = self.show_residuals = True
         self._drawn: tuple[object, ...] = ()
         self.view("whole")
 
@@ -60,7 +61,7 @@ class Stage:
 
     def view(self, name: str) -> None:
         """Looks from one of the named places."""
-        look(self._client.camera, VIEWS[name](self._world))
+        look(self._client.camera, {**VIEWS, **MORE_VIEWS}[name](self._world))
 
     def pose(self, q: np.ndarray, world: World) -> None:
         """The arm at q (n,), the handle at its tool."""
@@ -70,12 +71,14 @@ class Stage:
     def refresh(self, state: SessionState) -> None:
         """Marks, residuals and axes, where they changed."""
         result = state.result.result if state.result else None
-        wanted = (state.captures, result, state.tool, self.show_marks, self.show_residuals)
+        wanted = (state.captures, result, state.tool, self.show_handle, self.show_marks, self.show_residuals)
         if len(self._drawn) == len(wanted) and all(a is b for a, b in zip(self._drawn, wanted, strict=True)):
             return
         self._drawn = wanted
         self.marks.show(state.ordered if self.show_marks else ())
-        self.residuals.show(result if self.show_residuals else None)
+        # A result that waits for its decision is looked at, not moved: the handle would hide the arrows.
+        self.handle.visible = self.show_handle and (result is None or accepted(state))
+        self.residuals.show(result if self.show_residuals and not accepted(state) else None)
         tool = (
             result.T_flange_tool if result is not None else state.tool.T_flange_tool if state.tool else None
         )

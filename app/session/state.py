@@ -100,6 +100,15 @@ class SessionState:
         return replace(self, **changes)
 
 
+def accepted(state: SessionState) -> bool:
+    """True where the result that is shown is the active tool."""
+    return (
+        state.result is not None
+        and state.tool is not None
+        and state.tool.T_flange_tool is state.result.result.T_flange_tool
+    )
+
+
 @lru_cache(maxsize=16)
 def robot_named(name: str) -> RobotModel:
     """A shipped arm, read once; raises UnknownNameError."""

@@ -100,5 +100,8 @@ class Operator:
     def picture(self, name):
         """Leaves a screenshot for people to look at."""
         SCREENSHOTS.mkdir(exist_ok=True)
+        notice = self.page.locator(".mantine-Notification-closeButton")
+        if notice.count():
+            notice.first.click()
         self.page.wait_for_timeout(400)
         self.page.screenshot(path=str(SCREENSHOTS / f"{name}.png"))

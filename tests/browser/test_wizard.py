@@ -44,7 +44,9 @@ def test_a_person_finds_a_hidden_tool_with_handle_fields_and_clicks(serve, sit_d
                 person.type_angle(f"Axis {axis}", angle)
             want = np.radians(WRISTS[number - 2])
             person.until(lambda want=want: np.allclose(person.pendant.q[3:], want), "the axes typed in")
-        assist = "Touch the spike" if "touch" in step.roles else f"Move 150 mm along tool +{step.role.upper()}"
+        assist = (
+            "Touch the spike" if "touch" in step.roles else f"Move 150 mm along tool +{step.role.upper()}"
+        )
         person.click(assist)
         person.at_rest()
         person.click("Record", row=f"○ {step.title}")
@@ -103,4 +105,6 @@ def lift_with_the_handle(person):
     person.until(lambda: not np.array_equal(person.pendant.q, before), "the arm to follow the handle")
     moved = person.pendant.world.tip(person.pendant.q)
     assert np.linalg.norm(moved.position - tip.position) > from_mm(5.0)
-    person.until(lambda: person.state.q == tuple(person.pendant.q), "the session to know where the arm stands")
+    person.until(
+        lambda: person.state.q == tuple(person.pendant.q), "the session to know where the arm stands"
+    )

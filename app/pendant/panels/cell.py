@@ -32,7 +32,7 @@ class _View:
         pendant.changed(language, "language", self._speak)
         pendant.changed(gui.add_checkbox(t("cell.dark"), pendant.dark), "dark", self._dark)
         stage = pendant.stage
-        pendant.changed(gui.add_checkbox(t("cell.handle"), True), "handle", self._handle)
+        pendant.changed(gui.add_checkbox(t("cell.handle"), stage.show_handle), "handle", self._handle)
         pendant.changed(gui.add_checkbox(t("cell.marks"), stage.show_marks), "marks", self._marks)
         pendant.changed(
             gui.add_checkbox(t("cell.residuals"), stage.show_residuals), "residuals", self._residuals
@@ -71,7 +71,8 @@ class _View:
         pendant.stage.floor(dark)
 
     def _handle(self, value: bool) -> None:
-        self._pendant.stage.handle.visible = value
+        self._pendant.stage.show_handle = value
+        self._pendant.stage.refresh(self._pendant.session.state)
 
     def _marks(self, value: bool) -> None:
         self._pendant.stage.show_marks = value

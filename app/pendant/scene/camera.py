@@ -47,7 +47,16 @@ def close(world: World) -> View:
     return world.p_base_spike + offset, world.p_base_spike
 
 
+def result(world: World) -> View:
+    """Spike, torch and recorded flanges: what a result is about."""
+    reach, ahead, left = _sizes(world)
+    centre = world.p_base_spike - 0.10 * reach * ahead + np.array([0.0, 0.0, 0.05 * reach])
+    return centre + 0.80 * reach * (0.35 * ahead - 0.95 * left + np.array([0.0, 0.0, 0.38])), centre
+
+
 VIEWS: dict[str, Callable[[World], View]] = {"whole": whole, "side": side, "front": front, "close": close}
+#: Views the program takes by itself.
+MORE_VIEWS = {"result": result}
 
 
 def look(camera: viser.CameraHandle, view: View) -> None:

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from app.pendant.client import Pendant
 
 PAPER = resources.STATIC / "samples" / "xiong2012_table1.csv"
+_LEVELS = {"green": "good", "yellow": "warning", "red": "error"}
 _LARGEST = 2_000_000  # bytes of a points file somebody may send
 
 
@@ -61,7 +62,7 @@ def play(pendant: Pendant, action: LoadPoints) -> None:
         stops.append(q)
         titles.append(step.title)
     if len(stops) < len(state.steps):  # another arm's points: nothing to show, but the numbers hold
-        _calculate(pendant)
+        calculate(pendant)
         return
     pendant.say("info", pendant.t("message.loading", source=action.source, count=len(stops)))
 
@@ -74,13 +75,15 @@ def play(pendant: Pendant, action: LoadPoints) -> None:
         if number >= 0:
             pendant.say("info", pendant.t("message.at_point", title=titles[number], source=action.source))
         else:
-            _calculate(pendant)
+            calculate(pendant)
 
     pendant.tour(stops, arrived)
 
 
-def _calculate(pendant: Pendant) -> None:
+def calculate(pendant: Pendant) -> None:
+    """The result, the light in words, and a closer look."""
     state = pendant.do(Calculate())
     if state.result is not None:
-        level = {"green": "good", "yellow": "warning", "red": "error"}[state.result.light.colour]
-        pendant.say(level, pendant.t("message.calculated", reason=state.result.light.reason))
+        colour = state.result.light.colour
+        pendant.stage.view("result")
+        pendant.say(_LEVELS[colour], pendant.t(f"message.calculated_{colour}"))

@@ -10,12 +10,11 @@ from app import catalog
 from app.calibration.captures import Capture, Step
 from app.calibration.tool import METHODS
 from app.pendant import html
-from app.pendant.screens._paper import play_paper_table, play_upload
+from app.pendant.screens._paper import calculate, play_paper_table, play_upload
 from app.pendant.screens._result import light_html, result_html
 from app.session import SessionState
 from app.session.actions import (
     Accept,
-    Calculate,
     Cancel,
     ChooseMethod,
     ChooseMode,
@@ -25,7 +24,7 @@ from app.session.actions import (
     ReRecord,
     Undo,
 )
-from app.session.state import MODES, as_tuple, mode_named
+from app.session.state import MODES, accepted, as_tuple, mode_named
 from app.units import from_mm, mm
 
 if TYPE_CHECKING:
@@ -109,7 +108,9 @@ class _View:
             self._light = gui.add_html("")
             self._name = gui.add_text(t("tool.name"), t("tool.first_name", number=len(state.tools) + 1))
             self._decide = gui.add_button_group(t("tool.decide"), (t("tool.accept"), t("tool.cancel")))
+            self._again = gui.add_button(t("tool.again"), visible=False)
             self._result = gui.add_html("")
+        pendant.clicked(self._again, self._cancel)
         jobs = {t("tool.accept"): self._accept, t("tool.cancel"): self._cancel}
         pendant.chosen(self._decide, lambda label: jobs[label]())
         self.list_folder = gui.add_folder(t("tool.points"))
@@ -170,19 +171,18 @@ class _View:
 
     def _solve(self) -> None:
         pendant = self.pendant
-        state = pendant.do(Calculate())
-        if state.result is not None:
-            level = {"green": "good", "yellow": "warning", "red": "error"}[state.result.light.colour]
-            pendant.say(level, pendant.t("message.calculated", reason=state.result.light.reason))
+        calculate(pendant)
 
     def _accept(self) -> None:
         pendant = self.pendant
         state = pendant.do(Accept(self._name.value))
         if state.tool is not None:
+            pendant.stage.view("whole")
             pendant.say("good", pendant.t("message.accepted", name=state.tool.name))
 
     def _cancel(self) -> None:
         self.pendant.do(Cancel())
+        self.pendant.stage.view("whole")
         self.pendant.say("info", self.pendant.t("message.cancelled"))
 
     def _undo(self) -> None:
@@ -227,6 +227,9 @@ class _View:
         self._result_folder.visible = done
         self._mode.visible = self._touches.visible = self._method.visible = not done
         self._next.visible = self._assist.visible = self._calculate.visible = not done
+        taken = accepted(state)
+        self._name.visible = self._decide.visible = not taken
+        self._again.visible = taken
         self._calculate.disabled = bool(state.missing)
         if state.result is not None:
             self._light.content = light_html(state.result)

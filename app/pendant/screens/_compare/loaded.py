@@ -1,0 +1,97 @@
+"""A recording with its robot and what is known of it so far."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+import numpy as np
+
+from app.diagnosis.dispatch import diagnose_file, robot_for
+from app.diagnosis.preview import preview
+from app.diagnosis.report.curves import residual_vectors
+from app.diagnosis.report.drawing.arrows import magnification
+from app.diagnosis.result import Cancelled, Diagnosis, Evidence
+from app.kinematics import RobotModel
+from app.recordings import read_table
+
+
+@dataclass(frozen=True, eq=False)
+class Loaded:
+    """One recording on the screen.
+
+    Args:
+        path: the file.
+        robot: whose recording it is.
+        named: what was asked for as the robot; None takes the file's own.
+        evidence: what is drawn: before the search the bare description, after it the diagnosis's.
+        diagnosis: None until somebody searched.
+        applied: True while the findings are in the simulation.
+        truth: what a simulated cell has hidden; empty for real recordings.
+    """
+
+    path: Path
+    robot: RobotModel
+    named: str | None
+    evidence: Evidence
+    diagnosis: Diagnosis | None = None
+    applied: bool = False
+    truth: tuple[dict, ...] = field(default=())
+
+    @property
+    def moving(self) -> bool:
+        """A log over time, not single poses."""
+        return self.evidence.unit == "Nm"
+
+    @property
+    def count(self) -> int:
+        return len(self.evidence.q)
+
+    @property
+    def factor(self) -> float:
+        """How much longer than life residuals are best drawn."""
+        return 1.0 if residual_vectors(self.evidence)[0] is None else magnification(self.evidence)
+
+    def vectors(self, share: float) -> np.ndarray:
+        """(m, 3) residuals in base [m], `share` of the way from before (0) to after (1)."""
+        before, after = residual_vectors(self.evidence)
+        if before is None or after is None:
+            return np.zeros((self.count, 3))
+        return np.nan_to_num((1.0 - share) * before + share * after)
+
+    @property
+    def points(self) -> np.ndarray | None:
+        """(m, 3) where the simulation puts the tool, in base [m]."""
+        return self.evidence.points_predicted_before
+
+    def with_diagnosis(self, found: Diagnosis) -> Loaded:
+        """The same recording, searched."""
+        evidence = found.evidence if found.evidence is not None else self.evidence
+        return replace(self, diagnosis=found, evidence=evidence, applied=False)
+
+
+def load(path: Path, *, robot: str | None = None, truth: tuple[dict, ...] = ()) -> Loaded:
+    """Reads a recording and sets it beside the bare description.
+
+    Raises:
+        InputError, DegenerateGeometryError: it cannot be used.
+    """
+    table = read_table(path)
+    arm = robot_for(table, robot)
+    return Loaded(path, arm, robot, preview(table, arm), truth=truth)
+
+
+def search(loaded: Loaded, stop: threading.Event, say: Callable[[float, str], None]) -> Diagnosis | None:
+    """Looks for what is missing; None where somebody stopped it."""
+
+    def progress(share: float, doing: str) -> None:
+        if stop.is_set():
+            raise Cancelled("stopped")
+        say(share, doing)
+
+    try:
+        return diagnose_file(loaded.path, robot=loaded.named, progress=progress)
+    except Cancelled:
+        return None

@@ -1,0 +1,51 @@
+"""The report's pictures inside a panel: the same drawing, its style confined to the picture."""
+
+from __future__ import annotations
+
+import re
+from functools import cache
+
+from app.diagnosis.report.curves import Curve
+from app.diagnosis.report.drawing.bars import before_after_bars
+from app.diagnosis.report.drawing.scatter import driver_plot
+from app.diagnosis.report.drawing.traces import trace_plot
+from app.diagnosis.report.parts.timeline import windows_of
+from app.diagnosis.report.style import PICTURES
+from app.diagnosis.result import Diagnosis, Evidence
+
+PANEL_WIDTH = 340.0
+
+
+def bars(diagnosis: Diagnosis) -> str:
+    """Error before and after against the noise."""
+    return _framed(before_after_bars(diagnosis, width=PANEL_WIDTH), "compare-bars")
+
+
+def curve(of: Curve) -> str:
+    """Residual against one driver."""
+    return _framed(driver_plot(of), "compare-curve")
+
+
+def trace(evidence: Evidence, joint: int, diagnosis: Diagnosis | None, at: float | None) -> str:
+    """Torque of one joint (from 0) over time, the shown moment marked."""
+    windows = windows_of(diagnosis) if diagnosis is not None else []
+    drawn = trace_plot(evidence, joint, windows, labelled=True, width=PANEL_WIDTH, at=at)
+    return _framed(drawn, "compare-trace")
+
+
+def _framed(picture: str, testid: str) -> str:
+    """On white in light and dark pages alike: the colours were chosen for paper."""
+    return (
+        f'<div class="tf-plot" data-testid="{testid}" style="--before:#d97b16;--after:#1866ad;--noise:#7b8794;'
+        f'background:#fff;border-radius:4px;margin:4px 8px;padding:3px"><style>{_confined()}</style>{picture}</div>'
+    )
+
+
+@cache
+def _confined() -> str:
+    """Every rule of the pictures' style, for what is inside `.tf-plot` only."""
+    rules = re.findall(r"([^{}]+)\{([^}]*)\}", PICTURES)
+    return "".join(
+        ",".join(f".tf-plot {one.strip()}" for one in selector.split(",")) + "{" + body + "}"
+        for selector, body in rules
+    )
