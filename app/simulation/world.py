@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
-from app.geometry import Pose
+from app.geometry import Pose, exp_so3
 from app.kinematics import IkResult, RobotModel, solve_ik
 from app.units import from_mm
 
@@ -14,8 +15,10 @@ from app.units import from_mm
 TOUCH_SIGMA = from_mm(0.15)
 #: Closer than this the tip counts as touching.
 CONTACT_DISTANCE = from_mm(1.0)
-#: Where the spike stands where the description does not say: shares of the reach, ahead of the arm at home and up.
-_SPIKE_AHEAD, _SPIKE_UP = 0.55, 0.20
+#: Where the spike stands where the description does not say: shares of the reach, ahead and up, best first.
+_SPIKES = ((0.55, 0.20), (0.50, 0.28), (0.62, 0.28), (0.45, 0.38), (0.62, 0.12), (0.55, 0.45))
+#: From the orientation at home [rad]: how the tip must be able to stand on it.
+_TILTS = ((0.0, 0.0, 0.0), (0.6, 0.0, 0.0), (-0.6, 0.0, 0.0), (0.0, 0.6, 0.0), (0.0, -0.6, 0.0))
 #: A torch for arms whose description names no tool.
 _PLAIN_TOOL = Pose.of(position=np.array([0.0, 0.0, from_mm(150.0)]))
 
@@ -95,13 +98,8 @@ class World:
 def default_world(robot: RobotModel) -> World:
     """The practice cell of an arm: its own tool, a spike within easy reach, a table under it."""
     cell = robot.description.get("cell", {})
-    reach = float(robot.description.get("reach_m", robot.reach))
     spike = cell.get("spike_mm")
-    p_base_spike = (
-        from_mm(np.array(spike, float))
-        if spike is not None
-        else _ahead(robot, _SPIKE_AHEAD * reach, _SPIKE_UP * reach)
-    )
+    p_base_spike = from_mm(np.array(spike, float)) if spike is not None else np.array(_ahead(robot))
     table = from_mm(float(cell["table_mm"])) if "table_mm" in cell else float(0.6 * p_base_spike[2])
     return World(robot, default_tool(robot), p_base_spike, table)
 
@@ -117,10 +115,26 @@ def default_tool(robot: RobotModel) -> Pose:
     )
 
 
-def _ahead(robot: RobotModel, distance: float, height: float) -> np.ndarray:
-    """(3,) [m] before the arm as it stands at home: makers do not agree which way that is."""
+@lru_cache(maxsize=16)
+def _ahead(robot: RobotModel) -> tuple[float, float, float]:
+    """A place before the arm as it stands at home, where the tip gets upright and tilted: makers do not agree which
+    way ahead is, nor does every wrist reach the same places."""
     towards = robot.forward(robot.home).position[:2]
     length = np.linalg.norm(towards)
-    direction = towards / length if length > 1e-3 else np.array([1.0, 0.0])
-    direction = np.round(direction, 1) / np.linalg.norm(np.round(direction, 1))
-    return np.array([*(distance * direction), height])
+    direction = np.round(towards / length if length > 1e-3 else np.array([1.0, 0.0]), 1)
+    direction /= np.linalg.norm(direction)
+    reach = float(robot.description.get("reach_m", robot.reach))
+    tool = default_tool(robot)
+    upright = (robot.forward(robot.home) @ tool).rotation
+    best, most = (0.0, 0.0, 0.0), -1
+    for ahead, up in _SPIKES:
+        place = np.array([*(ahead * reach * direction), up * reach])
+        aims = [Pose.of(exp_so3(np.array(tilt)) @ upright, place) for tilt in _TILTS]
+        reached = sum(
+            solve_ik(robot, aim, robot.home, T_flange_tool=tool, max_steps=200).reached for aim in aims
+        )
+        if reached > most:
+            best, most = (float(place[0]), float(place[1]), float(place[2])), reached
+        if reached == len(aims):
+            break
+    return best
