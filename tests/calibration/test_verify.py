@@ -1,0 +1,67 @@
+"""The turn about the accepted tool point."""
+
+import numpy as np
+import pytest
+
+from app.calibration.tool import calibrate
+from app.calibration.verify import TURNS, turning_path, verify
+from app.geometry import Pose, rot_y
+from app.kinematics import load_robot
+from tests.calibration.drawing import TOOL, captures, touches
+
+EXACT = 1e-9
+IK = 1e-5
+
+
+def result(noise=0.0, seed=0):
+    return calibrate(captures(*touches(5, 0.6, noise, seed)))
+
+
+START = Pose.of(rot_y(2.5), np.array([0.8, 0.1, 0.9]))
+
+
+def true_tip(flange, _):
+    return flange.apply(TOOL)
+
+
+def test_with_the_true_tool_the_tip_stays_where_it_is():
+    found = verify(result(), START, true_tip)
+    assert found.wander < EXACT and len(found.trace) > 60 and not found.stopped
+
+
+def test_the_wander_is_what_the_error_of_the_tool_point_makes_of_it():
+    found = result()
+    off = np.array([0.0, 0.0, 0.002])
+    wrong = verify(found, START, lambda flange, _: flange.apply(TOOL + off))
+    assert wrong.wander == pytest.approx(2 * np.sin(TURNS[0] / 2) * 0.002, rel=1e-6)
+
+
+def test_the_path_turns_about_each_axis_both_ways_and_keeps_the_tool_point():
+    tool = result().T_flange_tool
+    poses, axes = turning_path(START @ tool, tool)
+    for pose in poses:
+        np.testing.assert_allclose(pose.apply(tool.position), START.apply(tool.position), atol=EXACT)
+    for axis, most in enumerate(TURNS):
+        turns = [(START.rotation.T @ p.rotation) for p, a in zip(poses, axes, strict=True) if a == axis]
+        reached = [np.arccos(np.clip((np.trace(r) - 1) / 2, -1, 1)) for r in turns]
+        assert max(reached) == pytest.approx(most)
+
+
+def test_the_wander_is_inside_what_was_predicted_in_95_of_100_cases():
+    inside = 0
+    for seed in range(100):
+        found = verify(result(3e-4, seed), START, true_tip)
+        inside += found.wander <= found.expected
+    assert inside >= 90
+
+
+def test_an_arm_follows_the_turn_or_says_why_it_stopped():
+    robot = load_robot("ur10e")
+    flange = robot.forward(robot.home)
+    found = verify(result(), flange, true_tip, robot=robot, q_start=robot.home)
+    if found.stopped:
+        assert "stopped early" in found.sentence()
+    assert found.joints is not None and len(found.joints) == len(found.trace) > 10
+    assert found.wander < EXACT
+    for q, pose in zip(found.joints, found.flanges, strict=True):
+        np.testing.assert_allclose(robot.forward(q).position, pose.position, atol=IK)
