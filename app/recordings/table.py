@@ -144,6 +144,17 @@ class Table:
                 )
         return values * column.factor
 
+    def tolerant(self, quantity: str) -> np.ndarray:
+        """One column in SI units with NaN wherever a cell is no finite number; for logs with broken rows.
+
+        Returns:
+            (n,).
+        """
+        self.require([quantity])
+        column = self.columns[quantity]
+        values = self._body[0][column.name].cast(pl.Float64, strict=False).to_numpy().astype(float)
+        return np.where(np.isfinite(values), values, np.nan) * column.factor
+
     def numbers(self, quantities: Iterable[str], *, missing: bool = False) -> np.ndarray:
         """Several columns side by side, (n, k), in SI units."""
         quantities = list(quantities)

@@ -85,7 +85,8 @@ def relate_poses(
                 f"both descriptions begin with one first axis ({name}), which stood at {deg(joint1[0]):.4f} and "
                 f"{deg(joint1[1]):.4f} degrees, so both recordings must give one and the same base; they give two, "
                 f"{mm(apart):.0f} mm and {deg(turn):.2f} degrees apart, where the fits leave "
-                f"{mm(open_by[0]):.0f} mm and {deg(open_by[1]):.3f} degrees open: the instrument's frame is another one in each file, and no "
+                f"{mm(open_by[0]):.0f} mm and {deg(open_by[1]):.3f} degrees open: the "
+                f"instrument's frame is another one in each file, and no "
                 f"measured point is common to both, so T_base1_base2 cannot be had from them",
                 "record both arms with the instrument in one place, or three fixed points in each file",
                 severe=True,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -79,7 +80,11 @@ def details_json(base: BaseCalibration) -> dict[str, Any]:
 
 def base_json(bases: Sequence[BaseCalibration], relation: Relation | None) -> dict[str, Any]:
     """The contract's object for one robot, or for two and their relation."""
-    found = [w for b in bases for w in b.warnings] + (list(relation.warnings) if relation else [])
+    found = []
+    for number, b in enumerate(bases, 1):
+        whose = f"robot {number}, " if len(bases) > 1 else ""
+        found += [replace(w, message=whose + w.message) for w in b.warnings]
+    found += list(relation.warnings) if relation else []
     frames = [matrix_mm(b.T_tracker_base) for b in bases]
     out: dict[str, Any] = {
         "format": FORMAT,
@@ -90,7 +95,14 @@ def base_json(bases: Sequence[BaseCalibration], relation: Relation | None) -> di
         "robots": [details_json(b) for b in bases],
     }
     if relation:
+        makers = [b.maker.T_tracker_maker if b.maker else None for b in bases]
         out["relation"] = {
+            "T_maker1_maker2": matrix_mm(makers[0].inverse() @ makers[1])
+            if relation.T_base1_base2
+            and makers[0]
+            and makers[1]
+            and not (relation.drift and relation.drift.moved)
+            else None,
             "meeting_mm": mm(relation.meeting).tolist(),
             "sigma_meeting_mm": mm(relation.sigma_meeting),
             "covariance_m_rad": relation.covariance.tolist(),

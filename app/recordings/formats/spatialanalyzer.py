@@ -68,12 +68,16 @@ class SpatialAnalyzer:
 
 
 def _coordinates(cells: tuple[str, ...]) -> int | None:
-    """Where three numbers follow the name; a target called `12` is a name, too, so at least one cell stays."""
-    for start in range(min(3, len(cells) - 3), 0, -1):
-        if all(is_number(cell) for cell in cells[start : start + 3]):
-            # `Collection Group 12 X Y Z` also has numbers one cell earlier: the latest start wins
-            return start
-    return None
+    """Where the three coordinates begin: after the words, and after a target that is a bare whole number."""
+    start = (
+        1 if "::" in cells[0] else next((k for k, cell in enumerate(cells) if is_number(cell)), len(cells))
+    )
+    if start < 3 and "::" not in cells[0] and len(cells) >= start + 4 and cells[start].isdigit():
+        start += 1
+    good = (
+        start >= 1 and len(cells) >= start + 3 and all(is_number(cell) for cell in cells[start : start + 3])
+    )
+    return start if good else None
 
 
 FORMAT = SpatialAnalyzer()
