@@ -57,7 +57,10 @@ def _zyx_from(r: np.ndarray) -> np.ndarray:
     b = np.arctan2(-r[..., 2, 0], cos_b)
     locked = cos_b < _GIMBAL  # only A -/+ C is determined: put all of it into A
     a = np.where(locked, np.arctan2(-r[..., 0, 1], r[..., 1, 1]), np.arctan2(r[..., 1, 0], r[..., 0, 0]))
-    c = np.where(locked, 0.0, np.arctan2(r[..., 2, 1], r[..., 2, 2]))
+    # C from what is left after A is taken out, Rz(-A) R: near the lock A alone is noise, but C makes up for it.
+    sin_a, cos_a = np.sin(a), np.cos(a)
+    left = sin_a * r[..., 0, 2] - cos_a * r[..., 1, 2], cos_a * r[..., 1, 1] - sin_a * r[..., 0, 1]
+    c = np.where(locked, 0.0, np.arctan2(*left))
     return np.stack([a, b, c], axis=-1)
 
 
@@ -75,7 +78,9 @@ def _zyz_from(r: np.ndarray) -> np.ndarray:
         np.arctan2(up * r[..., 1, 0], up * r[..., 0, 0]),
         np.arctan2(r[..., 1, 2], r[..., 0, 2]),
     )
-    c = np.where(locked, 0.0, np.arctan2(r[..., 2, 1], -r[..., 2, 0]))
+    sin_a, cos_a = np.sin(a), np.cos(a)  # as above: c makes up for what is noise in a
+    left = cos_a * r[..., 1, 0] - sin_a * r[..., 0, 0], cos_a * r[..., 1, 1] - sin_a * r[..., 0, 1]
+    c = np.where(locked, 0.0, np.arctan2(*left))
     return np.stack([a, b, c], axis=-1)
 
 
