@@ -23,20 +23,20 @@ class Command:
     robot: str
     """A robot's name (see `teachframe robots`) or the path of a URDF."""
 
-    kind: Literal["touch", "tracker"]
-    """What is recorded: touches of points or tracked points."""
+    kind: Literal["touch", "tracker", "motion"]
+    """What is recorded: touches of points, tracked points, or joint torques over time."""
 
     effect: Annotated[list[str], tyro.conf.UseAppendAction, tyro.conf.arg(metavar="NAME[:joint=2,...]")] = (
         field(default_factory=list)
     )
     """What is wrong, once an effect: NAME, or NAME:joint=2,size=0.1 (also source_joint=, driver=, link=, axis=,
-    from_row=, and each parameter by name). What is left open is drawn."""
+    from_row=, from_s=, to_s=, and each parameter by name). What is left open is drawn."""
 
     seed: int = 0
     """Same seed, same file."""
 
     samples: int | None = None
-    """Rows; 60 unless said otherwise."""
+    """Rows; 60 touches or tracked points, 4000 of motion unless said otherwise."""
 
     noise_mm: float = 0.15
     """One-sigma noise of each axis (touch, tracker)."""
@@ -77,6 +77,18 @@ class Command:
     clutter_mm: float = 0.0
     """One-sigma error of every length of the arm as built, with twists and zeros to match."""
 
+    rate_hz: float = 125.0
+    """Samples a second (motion)."""
+
+    noise_share: float = 0.003
+    """One-sigma noise of each torque, as a share of the joint's rated torque (motion)."""
+
+    currents: bool = False
+    """Record motor currents and drive gains instead of torques (motion)."""
+
+    friction: float = 0.0
+    """Dry and viscous friction in every joint, as a share of its rated torque (motion)."""
+
     def run(self) -> int:
         from app.errors import InputError
         from app.proof.generator.static.making import Plan
@@ -85,6 +97,9 @@ class Command:
         def say(text: str) -> None:
             print(text, file=sys.stderr)
 
+        if self.kind == "motion":
+            self._motion(say)
+            return 0
         if self.noise_mm <= 0 or not 0 <= self.outliers <= 0.5 or self.sessions < 1 or self.targets < 1:
             raise InputError(
                 "a noise, share or count that cannot be",
@@ -111,3 +126,23 @@ class Command:
         clutter = from_mm(self.clutter_mm)
         simulate_static(self.robot, plan, self.effect, self.seed, self.out, clutter=clutter, say=say)
         return 0
+
+    def _motion(self, say) -> None:
+        from app.errors import InputError
+        from app.proof.generator.motion.making import MotionPlan
+        from app.proof.generator.motion.simulate import simulate_motion
+
+        if self.rate_hz <= 0 or self.noise_share <= 0 or self.friction < 0:
+            raise InputError(
+                "a rate, noise or friction that cannot be",
+                expected="--rate-hz and --noise-share above 0, --friction from 0",
+            )
+        plan = MotionPlan(
+            samples=self.samples if self.samples is not None else 4000,
+            rate=self.rate_hz,
+            noise=self.noise_share,
+            noise_kind=self.noise_kind,
+            currents=self.currents,
+            friction=self.friction,
+        )
+        simulate_motion(self.robot, plan, self.effect, self.seed, self.out, say=say)

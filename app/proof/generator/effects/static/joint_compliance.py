@@ -18,7 +18,8 @@ class JointCompliance:
     sizes: tuple[Size, ...] = (Size("compliance", "rad/Nm"),)
 
     def draw(self, rng, cell, asked):
-        joint = pick(rng, asked, "joint", loaded_joints(cell), self.key)
+        choices = list(range(1, cell.arm.n + 1)) if "joint" in asked else loaded_joints(cell)
+        joint = pick(rng, asked, "joint", choices, self.key)
         return Term(self.key, {"joint": joint, "driver": "gravity_torque"}, {"compliance": 1e-5})
 
     def add(self, cell, term, world):

@@ -1,0 +1,141 @@
+"""Draws a motion, puts the effects in, and records."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from app.proof.generator.arm import Arm
+from app.proof.generator.effects.term import Request, Term, draw_term
+from app.proof.generator.motion.cell import (
+    Motion,
+    drive_torques,
+    effect_on_torques,
+    law_of,
+    scaled_to,
+)
+from app.proof.generator.motion.paths import draw_path
+from app.proof.generator.noise import draw_noise
+
+RATED = 100.0  # Nm where a description states no effort
+ENCODER = 2.0e-6  # rad or m: one step
+SPEED_SIGMA = 5.0e-4  # rad/s
+GAIN = (6.0, 14.0)  # Nm/A
+
+
+@dataclass(frozen=True)
+class MotionPlan:
+    """How a log is made.
+
+    Args:
+        samples: rows; rate [Hz].
+        noise: one-sigma of the torques, as a share of each joint's rated torque.
+        noise_kind: see noise.py.
+        stated: False leaves the noise out of the header.
+        speeds: recorded speed columns.
+        currents: motor currents with drive gains instead of torques.
+        temperatures: joint temperatures are recorded.
+        repeats: the log holds the same trajectory twice.
+        jitter: uneven sampling, as a share of the step.
+        strength: what an effect does, in units of the noise where it acts most, where it is left open.
+        friction: share of rated torque of dry and of viscous friction in every joint (clutter); 0 for none.
+    """
+
+    samples: int = 4000
+    rate: float = 125.0
+    noise: float = 0.003
+    noise_kind: str = "gaussian"
+    stated: bool = True
+    speeds: bool = True
+    currents: bool = False
+    temperatures: bool = False
+    repeats: bool = False
+    jitter: float = 0.0
+    strength: float = 4.0
+    friction: float = 0.0
+
+
+@dataclass(frozen=True, eq=False)
+class MadeMotion:
+    """A log and all that is true of it.
+
+    Args:
+        terms: the effects asked for; `everywhere`: friction of every joint where the plan says so.
+        raw_rms: (terms, n) what each does alone [Nm].
+        sigma: (n,) noise [Nm].
+        q, qd: as recorded; torque: as recorded [Nm].
+        gains: (n,) [Nm/A].
+    """
+
+    plan: MotionPlan
+    cell: Motion
+    terms: tuple[Term, ...]
+    everywhere: tuple[Term, ...]
+    raw_rms: np.ndarray
+    sigma: np.ndarray
+    q: np.ndarray
+    qd: np.ndarray
+    torque: np.ndarray
+    temperature: np.ndarray
+    gains: np.ndarray
+
+
+def make_motion(
+    plan: MotionPlan, arm: Arm, described: Arm, requests: Sequence[Request], rng: np.random.Generator
+) -> MadeMotion:
+    """One log.
+
+    Raises:
+        InputError: an effect that this arm or log cannot carry.
+    """
+    m, n = plan.samples, arm.n
+    seconds = m / plan.rate
+    path = draw_path(arm, seconds, rng, repeats=plan.repeats)
+    t = np.arange(m) / plan.rate
+    if plan.jitter:
+        t = t + plan.jitter / plan.rate * rng.uniform(-0.5, 0.5, m)
+        t = t - t[0]
+    cell = Motion(arm, described, path, np.round(t, 6))
+    rated = np.where(arm.effort > 0, arm.effort, RATED)
+    sigma = plan.noise * rated
+    everywhere = _frictions(cell, rated, plan.friction, rng) if plan.friction else []
+    terms: list[Term] = []
+    for request in requests:
+        law = law_of(request.effect)
+        term, open_strength = draw_term(request, law, rng, cell)
+        if open_strength:
+            term = scaled_to(cell, [*everywhere, *terms], term, sigma, plan.strength)
+        terms.append(term)
+    both = [*everywhere, *terms]
+    torque = drive_torques(cell, both)
+    raw = [np.sqrt(np.mean(effect_on_torques(cell, both, term) ** 2, axis=0)) for term in terms]
+    noise = draw_noise(rng, (m, n), 1.0, plan.noise_kind) * sigma
+    gains = np.round(rng.uniform(*GAIN, n), 3)
+    warm = 25.0 + 12.0 * (1.0 - np.exp(-cell.t / (0.4 * seconds)))
+    return MadeMotion(
+        plan=plan,
+        cell=cell,
+        terms=tuple(terms),
+        everywhere=tuple(everywhere),
+        raw_rms=np.array(raw).reshape(len(terms), n),
+        sigma=sigma,
+        q=ENCODER * np.rint(cell.q / ENCODER),
+        qd=cell.qd + SPEED_SIGMA * rng.normal(size=(m, n)),
+        torque=torque + noise,
+        temperature=warm[:, None] + rng.normal(0, 0.05, (m, n)),
+        gains=gains,
+    )
+
+
+def _frictions(cell: Motion, rated: np.ndarray, share: float, rng: np.random.Generator) -> list[Term]:
+    """Dry and viscous friction in every joint, as real arms have them."""
+    out = []
+    for j in range(cell.arm.n):
+        level = share * rated[j] * rng.uniform(0.5, 1.5)
+        fast = max(float(np.abs(cell.qd[:, j]).max()), 0.1)
+        where = {"joint": j + 1, "driver": "speed"}
+        out.append(Term("coulomb_friction", where, {"coulomb": float(level)}))
+        out.append(Term("viscous_friction", where, {"viscous": float(level * rng.uniform(0.3, 1.0) / fast)}))
+    return out
