@@ -32,7 +32,7 @@ def geometry_terms(fitted: Fitted) -> tuple[Term, ...]:
     raw = np.linalg.norm(matrix, axis=0)
     plain = fitted.jacobian[: len(matrix), : fitted.slices[0].start if fitted.slices else None]
     projected = basis(plain).project(matrix) / np.where(raw > 0, raw, 1.0)
-    _, r, pivots = qr(projected, mode="economic", pivoting=True)
+    _, r, pivots = qr(projected, mode="economic", pivoting=True)  # pyright: ignore[reportAssignmentType]
     seen = np.abs(np.diag(r)) > INDEPENDENT
     chosen = sorted(pivots[: len(seen)][seen])
     return tuple(

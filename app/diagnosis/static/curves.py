@@ -79,7 +79,8 @@ class JointCurve(StaticEffect):
 
 
 def _functions(situation: Situation, place: Place) -> np.ndarray:
-    return shape_functions(situation, place.where, CURVES[int(place.fixed["curve"])])
+    functions = shape_functions(situation, place.where, CURVES[int(place.fixed["curve"])])
+    return np.column_stack([np.ones(len(functions)), functions])
 
 
 #: Names of the curves by their number, as a place keeps it.

@@ -1,24 +1,25 @@
-"""The order of the search: few effects on a sound description first; an arm as built only where that fails."""
+"""The order of the search: few effects on a sound description first; where that does not stand, an arm as built,
+or structure without a name."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from app.diagnosis.result import Leftover
 from app.diagnosis.static.as_built import evidence, fit_as_built, relearnt
-from app.diagnosis.static.curves import JOINT_CURVE, joint_curve_place, shape_functions
-from app.diagnosis.static.fit import Fitted, Term, fit
+from app.diagnosis.static.doubts import Doubt, doubt_of, leftover_doubt, stand_in
+from app.diagnosis.static.fit import Fitted, fit
 from app.diagnosis.static.leftover import LEVEL, leftover_of
 from app.diagnosis.static.library import GEOMETRY, Candidate, candidates
 from app.diagnosis.static.noise import weights_from
 from app.diagnosis.static.search import Found, forward
-from app.diagnosis.static.shape import LEVEL as SHAPE_LEVEL
-from app.diagnosis.static.shape import curve_p_value
 
-#: So many geometric findings on one arm are a sign that all its geometry is off.
+#: So many findings on one arm are a sign that all its geometry is off.
 MANY = 3
+_MOST_CURVES = 3
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,80 +29,73 @@ class Plan:
     Args:
         found: terms and their p.
         leftover: what is left, or what a withheld name stood for.
-        withheld: places whose name was not given.
+        withheld: places whose structure got no name.
+        doubt: what should be replaced by a free curve next, or None.
         as_built: True where all geometry was fitted alongside.
     """
 
     found: Found
     leftover: Leftover
-    withheld: tuple[dict, ...]
+    withheld: tuple[Doubt, ...]
+    doubt: Doubt | None
     as_built: bool
 
+    @property
+    def sound(self) -> bool:
+        return self.doubt is None and self.leftover.p_value > LEVEL
 
-def explore(before: Fitted, rng: np.random.Generator, tick) -> Plan:
-    """Searches, checks the names' curves and what is left, and tries the arm as built where need be."""
+    @property
+    def evidence(self) -> float:
+        return evidence(self.found.fitted)
+
+
+Tick = Callable[[float, str], None]
+
+
+def explore(before: Fitted, rng: np.random.Generator, tick: Tick) -> Plan:
+    """Searches, checks the names' curves and what is left, and tries other pictures where they do not stand."""
     wanted = candidates(before.recording.situation)
-    plan = _checked(before, wanted, rng, tick)
-    named = [t for t in plan.found.fitted.terms if not t.tacit]
-    geometric = sum(t.effect.key in GEOMETRY for t in named)
-    if plan.leftover.p_value > LEVEL and not plan.withheld and geometric < MANY:
-        return plan
-    tick(0.5, "fitting all geometry")
-    built = fit_as_built(before)
+    first = _searched(before, wanted, rng, tick)
+    named = [t for t in first.found.fitted.terms if not t.tacit]
+    if first.sound and len(named) < MANY:
+        return first
+    tick(0.4, "fitting all geometry")
     physical = tuple(c for c in wanted if c.effect.key not in GEOMETRY)
-    second = _checked(built, physical, rng, tick, as_built=True)
-    if evidence(second.found.fitted) < evidence(plan.found.fitted):
-        return second
-    return plan
+    built = _searched(fit_as_built(before), physical, rng, tick, as_built=True)
+    tick(0.6, "looking for what has no name")
+    curved = _with_curves(first, before, wanted, rng, tick)
+    pictures = (curved, built) if first.doubt is not None else (first, curved, built)
+    best = min(pictures, key=lambda plan: plan.evidence)
+    if best is built and not built.sound:
+        best = _with_curves(built, fit_as_built(before), physical, rng, tick)
+    return best
 
 
-def _checked(start: Fitted, wanted: tuple[Candidate, ...], rng, tick, as_built: bool = False) -> Plan:
-    """Forward search; names whose curve is not theirs are replaced by a free curve, and the search repeated."""
-    withheld: list[dict] = []
-    base = start
-    for _ in range(3):
-        found = forward(base, wanted, rng, tick=tick)
-        if as_built and any(not t.tacit for t in found.fitted.terms):
-            found = replace(found, fitted=relearnt(found.fitted, 2))
-        doubtful = _doubtful(found.fitted)
-        if doubtful is None:
+def _searched(
+    start: Fitted, wanted: tuple[Candidate, ...], rng, tick: Tick, as_built: bool = False, withheld=()
+) -> Plan:
+    """One forward search with its checks."""
+    found = forward(start, wanted, rng, tick=tick)
+    if as_built and found.p_values:
+        found = replace(found, fitted=relearnt(found.fitted, 2))
+    doubt = doubt_of(found.fitted)
+    left = leftover_of(found.fitted, rng)
+    if doubt is None and left.p_value <= LEVEL:
+        doubt = leftover_doubt(left.where)
+    return Plan(found, left, tuple(withheld), doubt, as_built)
+
+
+def _with_curves(plan: Plan, start: Fitted, wanted: tuple[Candidate, ...], rng, tick: Tick) -> Plan:
+    """Puts free curves in for what has no name, until the names that remain stand."""
+    base, withheld = start, list(plan.withheld)
+    for _ in range(_MOST_CURVES):
+        if plan.doubt is None:
             break
-        term = found.fitted.terms[doubtful]
-        if "joint" not in term.where:
-            withheld.append(dict(term.where))
-            break
-        curve = _stand_in(base, term)
+        curve = stand_in(base, plan.doubt)
         if curve is None:
             break
-        withheld.append({k: v for k, v in term.where.items() if k != "from_row"})
+        withheld.append(plan.doubt)
         base = fit(base.recording, base.setup, (*base.terms, curve), base.weights, held=base.held)
         base = fit(base.recording, base.setup, base.terms, weights_from(base), held=base.held)
-    left = leftover_of(found.fitted, rng)
-    if withheld:
-        left = Leftover(min(left.p_value, SHAPE_LEVEL), withheld[0])
-    return Plan(found, left, tuple(withheld), as_built)
-
-
-def _doubtful(fitted: Fitted) -> int | None:
-    """The term whose law a free curve of its driver beats most clearly, or None."""
-    worst, at = SHAPE_LEVEL, None
-    for index, term in enumerate(fitted.terms):
-        if term.tacit:
-            continue
-        p_value = curve_p_value(fitted, index)
-        if p_value < worst:
-            worst, at = p_value, index
-    return at
-
-
-def _stand_in(base: Fitted, term: Term) -> Term | None:
-    """The free curve for a term, or None where its driver has none or it is in already."""
-    curve = term.effect.curve
-    where = {k: v for k, v in term.where.items() if k != "from_row"}
-    if curve is None:
-        curve = "pace" if "from_row" in term.where else "own_angle"
-    place = joint_curve_place(where, curve)
-    if any(t.effect is JOINT_CURVE and t.place == place for t in base.terms):
-        return None
-    count = shape_functions(base.recording.situation, where, curve).shape[1]
-    return Term(JOINT_CURVE, place, np.zeros(count), tacit=True) if count else None
+        plan = _searched(base, wanted, rng, tick, plan.as_built, withheld)
+    return plan

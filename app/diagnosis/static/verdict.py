@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import msgspec
 
-from app.diagnosis.result import Diagnosis, Verdict
+from app.diagnosis.result import Diagnosis, Leftover, Verdict
 from app.diagnosis.static.evidence import evidence_of
 from app.diagnosis.static.findings import findings_of, quality
-from app.diagnosis.static.leftover import LEVEL
 from app.diagnosis.static.library import candidates
 from app.diagnosis.static.models import saved_model
 from app.diagnosis.static.noise import known_noise, noise_of
+from app.diagnosis.static.plan import Plan
+from app.diagnosis.static.shape import LEVEL as WITHHELD
 
 
 def conclude(recording, robot, outcome, held, seed, tick, seconds) -> Diagnosis:
@@ -31,7 +32,7 @@ def conclude(recording, robot, outcome, held, seed, tick, seconds) -> Diagnosis:
         after=quality(found),
         findings=findings,
         outliers=tuple(int(r) for r in recording.rows[outcome.outliers]),
-        leftover=outcome.plan.leftover,
+        leftover=leftover_said(outcome.plan),
         next_poses=(),
         seconds=seconds,
         notes=recording.notes,
@@ -40,9 +41,17 @@ def conclude(recording, robot, outcome, held, seed, tick, seconds) -> Diagnosis:
     )
 
 
-def verdict_of(findings, plan) -> Verdict:
+def verdict_of(findings, plan: Plan) -> Verdict:
     """Clean, named, partly or unexplained."""
-    left = plan.leftover.p_value <= LEVEL
+    left = bool(plan.withheld) or not plan.sound or (plan.as_built and not findings)
     if findings:
         return "partly" if left else "named"
     return "unexplained" if left else "clean"
+
+
+def leftover_said(plan: Plan) -> Leftover:
+    """What is left over; structure that was fitted without a name counts as such."""
+    doubt = plan.withheld[0] if plan.withheld else plan.doubt
+    if doubt is not None:
+        return Leftover(min(plan.leftover.p_value, WITHHELD), dict(doubt.where))
+    return plan.leftover
