@@ -48,6 +48,7 @@ class Stage:
         self.axes = ToolAxes(self._scene, self.arm.flange_path)
         self.show_handle = self.show_marks = self.show_residuals = True
         self._drawn: tuple[object, ...] = ()
+        self._away = False
         self.view("whole")
 
     def floor(self, dark: bool) -> None:
@@ -57,7 +58,13 @@ class Stage:
     def cell(self, world: World) -> None:
         """Table and spike of another cell of the same arm."""
         self._world = world
-        draw_cell(self._scene, world)
+        self._cell = draw_cell(self._scene, world)
+
+    def make_room(self, away: bool) -> None:
+        """Hides arm, handle and cell while something else is shown in their place; False brings them back."""
+        self._away = away
+        self.arm.visible = self._cell.visible = not away
+        self.handle.visible = not away and self.show_handle
 
     def view(self, name: str) -> None:
         """Looks from one of the named places."""
@@ -77,7 +84,7 @@ class Stage:
         self._drawn = wanted
         self.marks.show(state.ordered if self.show_marks else ())
         # A result that waits for its decision is looked at, not moved: the handle would hide the arrows.
-        self.handle.visible = self.show_handle and (result is None or accepted(state))
+        self.handle.visible = not self._away and self.show_handle and (result is None or accepted(state))
         self.residuals.show(result if self.show_residuals and not accepted(state) else None)
         tool = (
             result.T_flange_tool if result is not None else state.tool.T_flange_tool if state.tool else None

@@ -1,6 +1,25 @@
 """The page's look: calm on a screen, true on A4; colours that stay apart for colour-blind eyes."""
 
-CSS = """
+#: Of the pictures alone; one rule a line, so that the pendant can confine them to its plots.
+PICTURES = """
+svg{display:block;width:100%;height:auto;font-family:inherit}
+.tick{font-size:9px;fill:#5b6873}.label{font-size:10px;fill:#1c2730}.value{font-size:10px;fill:#1c2730}
+.end{text-anchor:end}.mid{text-anchor:middle}
+.grid{stroke:#e6eaee;stroke-width:.8}.zero{stroke:#9aa5af;stroke-width:.9}
+.fill-before{fill:var(--before)}.fill-after{fill:var(--after)}
+.noise{stroke:var(--noise);stroke-width:1.4;stroke-dasharray:5 3}
+.dot{fill:none;stroke-linecap:round;stroke-width:3.2}.dot.before{stroke:var(--before);opacity:.45}
+.dot.after{stroke:var(--after);opacity:.55}.dot.place{stroke:#1c2730;stroke-width:2.2;opacity:.6}
+.mean,.halo,.trace,.stroke{fill:none;stroke-linejoin:round;stroke-linecap:round}
+.halo{stroke:#fff;stroke-width:4.6}.mean{stroke-width:2.2}
+.stroke{stroke-width:1.2}.trace{stroke-width:1}.trace.measured{stroke:#1c2730;stroke-width:1.1}
+.mean.before,.stroke.before,.trace.before{stroke:var(--before)}
+.mean.after,.stroke.after,.trace.after{stroke:var(--after)}.stroke.aside{stroke:#aab3bb}
+.window{fill:#f3d9d9}.now{stroke:#a3262a;stroke-width:1.4}
+"""
+
+CSS = (
+    """
 :root{--ink:#1c2730;--soft:#5b6873;--rule:#d9dfe4;--paper:#fff;--tint:#f5f7f9;
 --before:#d97b16;--after:#1866ad;--noise:#7b8794;--good:#1d7a4c;--warn:#a15c00;--bad:#a3262a}
 *{box-sizing:border-box}
@@ -43,23 +62,11 @@ td.n,th.n{text-align:right}table.fit{width:auto;min-width:46%}
 ul{margin:0 0 6px;padding-left:17px}li{margin-bottom:2px}
 footer{margin-top:20px;border-top:1px solid var(--rule);padding-top:7px;font-size:8.6pt;color:var(--soft)}
 code{font-family:"DejaVu Sans Mono",Consolas,monospace;font-size:8.6pt;overflow-wrap:anywhere}
-svg{display:block;width:100%;height:auto;font-family:inherit}
-.tick{font-size:9px;fill:#5b6873}.label{font-size:10px;fill:#1c2730}.value{font-size:10px;fill:#1c2730}
-.end{text-anchor:end}.mid{text-anchor:middle}
-.grid{stroke:#e6eaee;stroke-width:.8}.zero{stroke:#9aa5af;stroke-width:.9}
-.fill-before{fill:var(--before)}.fill-after{fill:var(--after)}
-.noise{stroke:var(--noise);stroke-width:1.4;stroke-dasharray:5 3}
-.dot{fill:none;stroke-linecap:round;stroke-width:3.2}.dot.before{stroke:var(--before);opacity:.45}
-.dot.after{stroke:var(--after);opacity:.55}.dot.place{stroke:#1c2730;stroke-width:2.2;opacity:.6}
-.mean,.halo,.trace,.stroke{fill:none;stroke-linejoin:round;stroke-linecap:round}
-.halo{stroke:#fff;stroke-width:4.6}.mean{stroke-width:2.2}
-.stroke{stroke-width:1.2}.trace{stroke-width:1}.trace.measured{stroke:#1c2730;stroke-width:1.1}
-.mean.before,.stroke.before,.trace.before{stroke:var(--before)}
-.mean.after,.stroke.after,.trace.after{stroke:var(--after)}.stroke.aside{stroke:#aab3bb}
-.window{fill:#f3d9d9}
 .again{break-before:page;margin-top:26px}
 @media screen{body{margin:8mm auto;box-shadow:0 1px 8px rgba(28,39,48,.18)}}
 @media print{html{background:#fff}body{padding:0;max-width:none;margin:0}}
 @page{size:A4;margin:15mm 16mm 16mm}
 @media (max-width:640px){.grid2,.facts{grid-template-columns:1fr}body{padding:16px}}
 """
+    + PICTURES
+)

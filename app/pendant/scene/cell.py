@@ -41,6 +41,6 @@ def _up(height: float) -> np.ndarray:
     return np.array([0.0, 0.0, height])
 
 
-def draw_cell(scene: viser.SceneApi, world: World) -> None:
-    """Draws the cell, in place of the one before."""
-    draw_shapes(scene, "/cell", cell_shapes(world))
+def draw_cell(scene: viser.SceneApi, world: World) -> viser.FrameHandle:
+    """Draws the cell, in place of the one before; the node it hangs on."""
+    return draw_shapes(scene, "/cell", cell_shapes(world))

@@ -12,7 +12,7 @@ from app.diagnosis.result import Diagnosis
 WIDTH, LEFT, RIGHT, BAR, GAP = 680.0, 92.0, 70.0, 15.0, 16.0
 
 
-def before_after_bars(diagnosis: Diagnosis) -> str:
+def before_after_bars(diagnosis: Diagnosis, *, width: float = WIDTH) -> str:
     """Error on fitted and held-out rows, before and after; a dashed line where the noise lies."""
     d = diagnosis
     unit = d.before.unit
@@ -24,7 +24,7 @@ def before_after_bars(diagnosis: Diagnosis) -> str:
     noise = d.noise.value if d.noise.unit == unit and math.isfinite(d.noise.value) else None
     values = [v for _, *pair in rows for v in pair if v is not None and math.isfinite(v)]
     top = max([*values, noise or 0.0, 1e-12]) * 1.02
-    scale = (WIDTH - LEFT - RIGHT) / top
+    scale = (width - LEFT - RIGHT) / top
     height = 2 * (2 * BAR + GAP) + 34
     out = []
     bottom = height - 26
@@ -32,7 +32,7 @@ def before_after_bars(diagnosis: Diagnosis) -> str:
         x = LEFT + value * scale
         out.append(svg.tag("line", klass="grid", x1=x, x2=x, y1=6, y2=bottom))
         out.append(svg.text(x, bottom + 12, tick_text(value), klass="tick mid"))
-    out.append(svg.text(WIDTH - RIGHT + 6, bottom + 12, unit, klass="label"))
+    out.append(svg.text(width - RIGHT + 6, bottom + 12, unit, klass="label"))
     y = 10.0
     for label, before, after in rows:
         out.append(svg.text(LEFT - 8, y + BAR + 3, label, klass="label end"))
@@ -51,4 +51,4 @@ def before_after_bars(diagnosis: Diagnosis) -> str:
     if noise is not None:
         x = LEFT + noise * scale
         out.append(svg.tag("line", klass="noise", x1=x, x2=x, y1=2, y2=bottom))
-    return svg.picture(WIDTH, height, out, "Error before and after, against the noise")
+    return svg.picture(width, height, out, "Error before and after, against the noise")

@@ -18,15 +18,28 @@ COLUMNS = 420
 
 
 def trace_plot(
-    evidence: Evidence, joint: int, windows: Sequence[tuple[float, float]], *, labelled: bool
+    evidence: Evidence,
+    joint: int,
+    windows: Sequence[tuple[float, float]],
+    *,
+    labelled: bool,
+    width: float = WIDTH,
+    at: float | None = None,
 ) -> str:
-    """One joint (counted from 0): torques above, residuals below, on one time axis."""
+    """One joint: torques above, residuals below, on one time axis.
+
+    Args:
+        joint: counted from 0.
+        windows: spans of time to shade [s].
+        labelled: True writes the time axis.
+        at: a moment to mark [s].
+    """
     t = evidence.seconds
     assert t is not None
     measured = evidence.measured[:, joint]
     before, after = evidence.before[:, joint], evidence.after[:, joint]
     span = (float(t[0]), float(t[-1]))
-    upper = Axes(LEFT, 20, WIDTH - LEFT - RIGHT, UPPER, span, padded(np.r_[measured, measured - before], 0.1))
+    upper = Axes(LEFT, 20, width - LEFT - RIGHT, UPPER, span, padded(np.r_[measured, measured - before], 0.1))
     lower = Axes(LEFT, 20 + UPPER + 9, upper.width, LOWER, span, padded(np.r_[before, after], zero=True))
     out = []
     for axes in (upper, lower):
@@ -49,8 +62,11 @@ def trace_plot(
         (lower, after, "trace after"),
     ):
         out.append(svg.line(*_thin(axes, t, values), klass))
+    if at is not None:
+        x = float(upper.x(at))
+        out.append(svg.tag("line", klass="now", x1=x, x2=x, y1=upper.top, y2=lower.top + lower.height))
     height = HEIGHT + (16 if labelled else -14)
-    return svg.picture(WIDTH, height, out, f"{evidence.components[joint]}: measured and simulated torque")
+    return svg.picture(width, height, out, f"{evidence.components[joint]}: measured and simulated torque")
 
 
 def _thin(axes: Axes, t: np.ndarray, values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
