@@ -9,6 +9,8 @@ import numpy as np
 from app.estimation.fit import Fit
 from app.estimation.linear import covariance_from_jacobian
 
+_ROUNDING = 1e-6  # of the cost: a promised drop below this is rounding
+
 Residual = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]]
 
 
@@ -28,37 +30,47 @@ def gauss_newton(
     """Minimises |r(x)|^2.
 
     A full Gauss-Newton step is tried first; where it does not lower the cost, Levenberg's damping grows
-    until it does. Steps are projected onto the bounds.
+    until it does. A parameter that sits on a bound and is pushed against it stands still while the others go on.
 
     Args:
         function: x -> (measured minus predicted (m,), d predicted / d step (m, p)).
         start: (k,) first guess; k is p unless `update` is given.
         sigma: stated one-sigma noise of one residual; None estimates it.
-        lower, upper: (p,) bounds on the parameters, infinite where there is none.
+        lower, upper: (p,) bounds on the parameters, infinite where there is none; not together with `update`.
         update: (x, step) -> x, where parameters do not simply add (poses). Default x + step.
-        tolerance: stops when a step's expected drop of the cost, relative to the cost, is below this.
+        tolerance: stops when a step drops the cost by less than this share of it.
 
     Returns:
-        Fit; `converged` is False with a `message` where the iteration ran out.
+        Fit; `converged` is False with a `message` where the iteration ran out or no step lowers the cost
+        although the Jacobian promises one.
     """
     x = np.array(start, float)
+    low = np.full(len(x), -np.inf) if lower is None else np.asarray(lower, float)
+    high = np.full(len(x), np.inf) if upper is None else np.asarray(upper, float)
+    bounded = lower is not None or upper is not None
+    if bounded:
+        x = np.clip(x, low, high)
     add = update or (lambda value, step: value + step)
     residual, jacobian = function(x)
-    cost = float(residual @ residual)
+    cost = first_cost = float(residual @ residual)
     damping, converged, message, iteration = 0.0, False, "iterations ran out", 0
     for iteration in range(1, max_iterations + 1):  # noqa: B007  (read after the loop)
         scale = np.linalg.norm(jacobian, axis=0)
         scale = np.where(scale > 0, scale, 1.0)
         scaled = jacobian / scale
         gradient = scaled.T @ residual
+        if bounded:
+            held = ((x <= low) & (gradient < 0)) | ((x >= high) & (gradient > 0))
+            scaled = np.where(held, 0.0, scaled)
+            gradient = np.where(held, 0.0, gradient)
         hessian = scaled.T @ scaled
         accepted = False
         trial, trial_residual, trial_jacobian, trial_cost = x, residual, jacobian, cost
         for _ in range(12):
             step = np.linalg.lstsq(hessian + damping * np.eye(len(scale)), gradient, rcond=1e-13)[0] / scale
             trial = add(x, step)
-            if lower is not None or upper is not None:
-                trial = np.clip(trial, lower, upper)
+            if bounded:
+                trial = np.clip(trial, low, high)
             trial_residual, trial_jacobian = function(trial)
             trial_cost = float(trial_residual @ trial_residual)
             if np.isfinite(trial_cost) and trial_cost <= cost * (1.0 + 1e-14):
@@ -66,7 +78,9 @@ def gauss_newton(
                 break
             damping = max(damping * 10.0, 1e-6)
         if not accepted:
-            converged, message = True, "no step lowers the cost"
+            promised = float(gradient @ np.linalg.lstsq(hessian, gradient, rcond=1e-13)[0])
+            converged = promised <= _ROUNDING * cost + _ROUNDING**3 * first_cost
+            message = "converged" if converged else "no step lowers the cost"
             break
         drop = cost - trial_cost
         x, residual, jacobian, cost = trial, trial_residual, trial_jacobian, trial_cost
@@ -81,11 +95,8 @@ def gauss_newton(
         source, sigma = "residual", float(np.sqrt(cost / dof)) if dof > 0 else float("nan")
     covariance, rank, condition = covariance_from_jacobian(jacobian, sigma)
     bound = []
-    for index, name in enumerate(names):
-        low = lower is not None and x[index] <= lower[index]
-        high = upper is not None and x[index] >= upper[index]
-        if low or high:
-            bound.append(name)
+    if bounded:
+        bound = [name for name, at in zip(names, (x <= low) | (x >= high), strict=True) if at]
     return Fit(
         tuple(names),
         tuple(units),
