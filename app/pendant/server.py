@@ -77,7 +77,9 @@ class PendantServer:
 
     def stop(self) -> None:
         """Closes every session and stops listening."""
-        for pendant in self.pendants:
+        with self._lock:  # whoever takes a view out of the list closes it: nobody else does
+            left, self._pendants = list(self._pendants.values()), {}
+        for pendant in left:
             pendant.close()
             self.hub.leave(pendant.session.name, pendant)
         self._viser.stop()
