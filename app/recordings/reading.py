@@ -42,6 +42,6 @@ def read_table(path: str | Path) -> Table:
     raise FileFormatError(
         "binary content",
         file=path,
-        row=1,
+        row=head.partition(b"\x00")[0].count(b"\n") + 1,
         expected="UTF-8 text: '# key: value' lines, a header row, data rows",
     )

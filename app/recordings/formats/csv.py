@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 import io
 import re
 from pathlib import Path
@@ -15,6 +16,8 @@ from app.errors import FileFormatError
 from app.recordings.table import Table
 
 _HEAD_BYTES = 65536  # a header that is longer is not one
+_CHUNK_BYTES = 1 << 24
+_BLANK = re.compile(rb"(?:\A|\n)[ \t]*\n|\n[ \t]+\Z")  # an empty line, or one of spaces
 _KEY = re.compile(r"^#\s*([A-Za-z_][A-Za-z0-9_]*)\s*:\s?(.*)$")
 
 
@@ -51,7 +54,14 @@ class Csv:
                     break
                 _key(text.strip(), keys, path, number)
             offset = file.tell()
-        names = tuple(cell.strip().strip('"') for cell in text.split(","))
+        if "\r" in text:
+            raise FileFormatError(
+                "lines end in a carriage return alone",
+                file=path,
+                row=number,
+                expected="LF or CR LF line ends",
+            )
+        names = tuple(cell.strip() for cell in _cells(text, path, number))
         if any(not name for name in names):
             place = next(i for i, name in enumerate(names) if not name)
             raise FileFormatError(
@@ -64,6 +74,16 @@ class Csv:
             )
         keys["__header_row__"] = number
         return Table(path, keys, names, lambda: _body(path, offset, number, names))
+
+
+def _cells(line: str, path: Path, row: int) -> list[str]:
+    """The cells of one line, quotes understood."""
+    try:
+        return next(csv.reader([line], skipinitialspace=True))
+    except csv.Error as error:
+        raise FileFormatError(
+            f"cannot read the cells ({error})", file=path, row=row, expected="CSV"
+        ) from None
 
 
 def _decode(data: bytes, path: Path, row: int) -> str:
@@ -89,16 +109,11 @@ def _key(text: str, keys: dict[str, Any], path: Path, row: int) -> None:
 def _body(
     path: Path, offset: int, header_row: int, names: tuple[str, ...]
 ) -> tuple[pl.DataFrame, np.ndarray]:
-    with path.open("rb") as file:
-        file.seek(offset)
-        data = file.read()
-    if b"\x00" in data:
-        row = header_row + 1 + data[: data.index(b"\x00")].count(b"\n")
-        raise FileFormatError("binary content", file=path, row=row, expected="text")
+    data = _read(path, offset, header_row)
     lines = data.count(b"\n") + (0 if data.endswith(b"\n") or not data else 1)
     rows = np.arange(header_row + 1, header_row + 1 + lines)
-    simple = b'"' not in data and b"\r" not in data
-    if not simple or b"\n\n" in data or data.startswith(b"\n") or b"\n#" in data or data.startswith(b"#"):
+    simple = b'"' not in data and b"\r" not in data and b"#" not in data
+    if not simple or _BLANK.search(data):
         data, rows = _tidy(data, path, header_row)
     _check_width(data, rows, len(names), path)
     schema = dict.fromkeys(names, pl.String)
@@ -107,13 +122,33 @@ def _body(
             io.BytesIO(data), has_header=False, schema=schema, null_values="", truncate_ragged_lines=False
         )
     except pl.exceptions.PolarsError as error:
-        _decode(data, path, header_row + 1)
         reason = str(error).splitlines()[0]
         raise FileFormatError(
             f"cannot read the rows ({reason})", file=path, row=header_row + 1, expected="comma-separated rows"
         ) from None
     frame = frame.with_columns(pl.all().str.strip_chars().replace("", None))
     return frame, rows[: len(frame)]
+
+
+def _read(path: Path, offset: int, header_row: int) -> bytes:
+    """Everything below the header as UTF-8 text; binary content stops it early, however long the file is."""
+    chunks: list[bytes] = []
+    with path.open("rb") as file:
+        file.seek(offset)
+        while chunk := file.read(_CHUNK_BYTES):
+            if b"\x00" in chunk:
+                before = b"".join(chunks) + chunk[: chunk.index(b"\x00")]
+                row = header_row + 1 + before.count(b"\n")
+                raise FileFormatError("binary content", file=path, row=row, expected="text")
+            chunks.append(chunk)
+    data = b"".join(chunks)
+    if not data.isascii():
+        try:
+            data.decode("utf-8")
+        except UnicodeDecodeError as error:
+            row = header_row + 1 + data[: error.start].count(b"\n")
+            raise FileFormatError("not UTF-8 text", file=path, row=row, expected="UTF-8") from None
+    return data
 
 
 def _tidy(data: bytes, path: Path, header_row: int) -> tuple[bytes, np.ndarray]:
@@ -133,23 +168,27 @@ def _tidy(data: bytes, path: Path, header_row: int) -> tuple[bytes, np.ndarray]:
 
 
 def _check_width(data: bytes, rows: np.ndarray, width: int, path: Path) -> None:
-    """Every row has as many cells as the header: found by counting commas, located only when they do not fit."""
+    """Every row has as many cells as the header.
+
+    Commas are counted for all lines at once; only lines with quotes are taken apart one by one.
+    """
     if not len(rows):
         raise FileFormatError("no data rows", file=path, expected="at least one row below the header")
-    if data.count(b",") == (width - 1) * len(rows) and b'"' not in data:
-        uniform = True
-    else:
-        uniform = False
-    if uniform and len(rows) > 20000:  # a sum that fits and a probe of the ends is enough for long logs
-        probe = data[:20000].split(b"\n")[:-1] + data[-20000:].split(b"\n")[1:-1]
-        if all(line.count(b",") == width - 1 for line in probe):
-            return
-    for line, row in zip(data.split(b"\n"), rows, strict=False):
-        cells = line.count(b",") + 1
-        if b'"' not in line and cells != width:
-            raise FileFormatError(
-                f"{cells} cells", file=path, row=int(row), expected=f"{width} as in the header row"
-            )
+    bytes_ = np.frombuffer(data, np.uint8)
+    ends = np.flatnonzero(bytes_ == ord("\n"))
+    if not data.endswith(b"\n"):
+        ends = np.append(ends, len(data))
+    cells = np.diff(np.searchsorted(np.flatnonzero(bytes_ == ord(",")), ends), prepend=0) + 1
+    if b'"' in data:
+        for k, line in enumerate(data.split(b"\n")[: len(rows)]):
+            if b'"' in line:
+                cells[k] = len(_cells(line.decode("utf-8"), path, int(rows[k])))
+    wrong = np.flatnonzero(cells != width)
+    if len(wrong):
+        k = int(wrong[0])
+        raise FileFormatError(
+            f"{cells[k]} cells", file=path, row=int(rows[k]), expected=f"{width} as in the header row"
+        )
 
 
 FORMAT = Csv()
