@@ -1,0 +1,20 @@
+"""Joint logs over time: what friction, loads, delays and contacts a rigid-body description leaves out.
+
+log.py, checks.py     the recording as arrays; what cannot be used is refused or set aside
+filters.py            zero-phase speed and acceleration, the window chosen by risk
+sampling.py           windows, the description's columns, blocks of time
+prior.py              how far the description's masses are believed
+library.py, curves.py laws and free curves as columns
+noise.py, whitening.py  size and memory of the noise
+system.py             Gram matrices block by block
+scoring.py            scores and their null under sign flips
+search.py, locate.py, heldout.py  forward selection
+exact.py              refit with the exact laws
+names.py              what may be named, what is left over
+findings.py           the result
+engine.py             the order of all this
+"""
+
+from app.diagnosis.motion.engine import diagnose
+
+__all__ = ["diagnose"]

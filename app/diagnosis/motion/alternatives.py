@@ -1,0 +1,56 @@
+"""What else would explain a finding about as well: exact aliases first, then what the log cannot rule out."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from app.diagnosis.motion.scoring import solve
+from app.diagnosis.result import Alternative
+
+if TYPE_CHECKING:
+    from app.diagnosis.motion.engine import Study
+
+CLOSE = 9.2  # difference of the Bayesian criterion that still counts as open
+MOST = 6
+
+
+def alternatives_of(study: Study, index: int) -> tuple[Alternative, ...]:
+    """Other effects in the place of term `index`, the rest of the model kept."""
+    term = study.fit.terms[index]
+    others = [t.group for i, t in enumerate(study.fit.terms) if i != index]
+    solution = solve(study.system, others, study.prior)
+    board = study.search.board(solution, others)
+    own_gain, own_size = float(study.judgement.gains[index]), term.group.size
+    penalty = np.log(max(study.system.rows, 3))
+    out: dict[tuple, Alternative] = {}
+    for candidate, gain in zip(board.candidates, board.gain, strict=True):
+        law, where = candidate.group.law, dict(candidate.group.where)
+        assert law is not None
+        same = law.key == term.group.law.key and where.get("joint") == term.group.where.get("joint")  # type: ignore[union-attr]
+        if same and law.key != "joint_coupling":
+            continue
+        if candidate.window is not None:
+            edges, t = study.system.edges, study.samples.t
+            where["from_s"] = round(float(t[edges[candidate.window[0]]]), 3)
+            if law.key != "payload_change":
+                where["to_s"] = round(float(t[edges[candidate.window[1]] - 1]), 3)
+        delta = own_gain - float(gain) + penalty * (candidate.size - own_size)
+        key = (law.key, where.get("joint"), where.get("source_joint"), where.get("driver"))
+        if delta < CLOSE and (key not in out or out[key].delta_bic > delta):
+            out[key] = Alternative(law.key, where, float(delta))
+    found = sorted(out.values(), key=lambda a: a.delta_bic)[:MOST]
+    return (*_aliases(study, index), *found)
+
+
+def _aliases(study: Study, index: int) -> tuple[Alternative, ...]:
+    """What no log of this arm could tell apart, however long."""
+    group = study.fit.terms[index].group
+    key = group.law.key if group.law else ""
+    last = study.system.joints
+    if key == "payload":
+        return (Alternative("link_inertia", {"link": last}, 0.0),)
+    if key == "friction_asymmetry":
+        return (Alternative("torque_offset", {"joint": group.where["joint"]}, 0.0),)
+    return ()

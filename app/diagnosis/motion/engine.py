@@ -1,0 +1,208 @@
+"""The order of a motion diagnosis, from the table to the findings."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from app.diagnosis.model import SavedModel
+from app.diagnosis.motion.errors import ErrorTable
+from app.diagnosis.motion.exact import ExactFit, exact_fit
+from app.diagnosis.motion.findings import build
+from app.diagnosis.motion.library import curve_groups, law_groups
+from app.diagnosis.motion.log import Log, read_log
+from app.diagnosis.motion.names import Judgement, judge
+from app.diagnosis.motion.noise import whiteners_of
+from app.diagnosis.motion.prior import choose_scale, prior_factor
+from app.diagnosis.motion.sampling import Samples, motion_of, take_samples
+from app.diagnosis.motion.search import Search, Term
+from app.diagnosis.motion.system import Group, System
+from app.diagnosis.result import Diagnosis, Progress
+from app.kinematics import RobotModel
+from app.recordings import Table
+
+MOST_ROUNDS = 4
+
+
+@dataclass(frozen=True, eq=False)
+class Corrections:
+    """What is undone before anything else is compared: late torques, wrong factors."""
+
+    delay: float
+    scale: np.ndarray  # (n,) recorded = (1 + scale) * true
+
+
+@dataclass(frozen=True, eq=False)
+class Study:
+    """One log through the search."""
+
+    log: Log
+    samples: Samples
+    system: System
+    prior: np.ndarray
+    prior_scale: float
+    corrections: Corrections
+    fit: ExactFit
+    judgement: Judgement
+    search: Search
+    before_residual: np.ndarray
+    before_heldout: float
+
+
+def diagnose(
+    table: Table,
+    robot: RobotModel,
+    *,
+    reference: Table | None = None,
+    progress: Progress | None = None,
+    seed: int = 0,
+    model: SavedModel | None = None,
+) -> Diagnosis:
+    """Where a joint log and the rigid-body description differ, by what law, and how the fit improves.
+
+    Args:
+        table: a motion recording.
+        reference: a run of the same arm in a known good state; only what changed since is then named.
+        progress: told how far it is; may raise Cancelled.
+        seed: of the null's sign flips.
+        model: effects found before, taken as part of the robot.
+
+    Raises:
+        InputError: the recording cannot be used; names file, row and column.
+    """
+    started = time.perf_counter()
+    tell = progress or (lambda share, what: None)
+    tell(0.0, "reading")
+    log = read_log(table, robot)
+    study = examine(log, robot, tell, seed)
+    tell(0.95, "report")
+    out = build(study, robot, str(table.path))
+    tell(1.0, "done")
+    return replace(out, seconds=time.perf_counter() - started)
+
+
+def examine(log: Log, robot: RobotModel, tell: Progress, seed: int) -> Study:
+    """Search, exact refit and judgement of one log."""
+    motion = motion_of(log)
+    corrections = Corrections(0.0, np.zeros(robot.joint_count))
+    factor = prior_factor(robot)
+    samples = take_samples(log, robot, motion, log.y, tell)
+    terms: list[Term] = []
+    before = None
+    rounds = 0
+    while True:
+        rounds += 1
+        system, groups, prior, scale, windows = prepare(samples, factor, terms)
+        search = Search(system, prior, groups, windows, seed)
+        if before is None:
+            bare = ErrorTable(system, prior, [], samples.y)
+            before = (bare.residual([]), bare.heldout([]))
+        start = carried(system, groups, terms)
+        known = {_event(t) for t in start}
+        terms = search.forward(tell, start)
+        fit = exact_fit(system, prior, terms)
+        kept = search.backward(fit.terms)
+        if len(kept) < len(fit.terms):
+            fit = exact_fit(system, prior, kept)
+        terms = fit.terms
+        new = _corrections(corrections, fit)
+        settled = new is None and {_event(t) for t in terms if t.group.law.windowed} <= known  # type: ignore[union-attr]
+        if settled or rounds == MOST_ROUNDS:
+            break
+        if new is not None:
+            corrections = new
+            torque = log.y / (1.0 + corrections.scale)
+            samples = take_samples(log, robot, motion, torque, tell, shift=corrections.delay)
+    tell(0.85, "names")
+    judgement = judge(search, fit)
+    return Study(log, samples, system, prior, scale, corrections, fit, judgement, search, *before)
+
+
+def carried(system: System, groups: list[Group], terms: list[Term]) -> list[Term]:
+    """Terms that stay from round to round: events, and what the samples were corrected for."""
+    out = []
+    for term in terms:
+        law = term.group.law
+        assert law is not None
+        if law.follows_model:
+            same = [g for g in groups if g.law is law and dict(g.where) == dict(term.group.where)]
+            out += [replace(term, group=g) for g in same]
+        elif law.windowed:
+            columns = law.columns(system.samples.state, term.group.where, term.group.shape)
+            group = replace(term.group, size=columns.shape[-1], bent=False)
+            out.append(replace(term, group=system.append(group, system.samples.pool(columns))))
+    return out
+
+
+def _event(term: Term) -> tuple:
+    """A term's key, its times rounded: the same event found again."""
+    where = term.group.where
+    return (term.group.label, *(round(float(where[k]), 1) for k in ("from_s", "to_s") if k in where))
+
+
+def prepare(
+    samples: Samples, factor: np.ndarray, found: list[Term]
+) -> tuple[System, list[Group], np.ndarray, float, dict[Group, np.ndarray]]:
+    """Library, noise, Gram matrices and the prior for these samples."""
+    shared, local = law_groups(samples)
+    curves = curve_groups(samples)
+    both = [a + b for a, b in zip(local, curves, strict=True)]
+    extra = [
+        (t.group, samples.pool(t.group.law.columns(samples.state, t.group.where, t.group.shape)))
+        for t in found
+        if t.group.law is not None and t.group.law.windowed
+    ]
+    whiteners = whiteners_of(samples, shared, both, extra)
+    system = System(samples, whiteners, shared, both)
+    for group, columns in extra:
+        system.append(group, columns)
+    scale = _prior_scale(system, factor)
+    prior = np.linalg.inv(factor @ factor.T) / scale**2
+    groups = [g for g, _ in shared] + [g for part in local for g, _ in part]
+    windows = {g: _windows(g, samples.block_count) for g in groups if g.base}
+    return system, groups, prior, scale, windows
+
+
+def _windows(group: Group, blocks: int) -> np.ndarray:
+    """(w, 2) block edges an event may have."""
+    assert group.law is not None
+    if group.law.key == "payload_change":
+        return np.array([(a, blocks) for a in range(2, blocks - 1)])
+    return np.array([(a, b) for a in range(blocks) for b in range(a + 1, min(a + blocks // 2, blocks) + 1)])
+
+
+def _prior_scale(system: System, factor: np.ndarray) -> float:
+    """What the log says of the description's masses once every law and curve has had its share."""
+    size = system.inertial_size
+    gram, rhs = np.zeros((size, size)), np.zeros(size)
+    for j, part in enumerate(system.parts):
+        inertial = np.arange(1, 1 + size - 10 * j)
+        others = np.arange(1 + len(inertial), part.columns.shape[1])
+        G = part.total
+        scale = np.sqrt(np.maximum(np.diag(G)[others], 1e-300))
+        own = G[np.ix_(others, others)] / scale / scale[:, None]
+        own[np.diag_indices_from(own)] += 1e-8
+        cross = G[np.ix_(inertial, others)] / scale
+        weight = np.linalg.solve(own, np.column_stack([cross.T, G[others, 0] / scale]))
+        at = np.arange(10 * j, size)
+        gram[np.ix_(at, at)] += G[np.ix_(inertial, inertial)] - cross @ weight[:, :-1]
+        rhs[at] += G[inertial, 0] - cross @ weight[:, -1]
+    return choose_scale(0.5 * (gram + gram.T), rhs, factor)
+
+
+def _corrections(old: Corrections, fit: ExactFit) -> Corrections | None:
+    """The next correction, or None where nothing moves any more."""
+    delay, scale, moved = old.delay, old.scale.copy(), False
+    for term, values in zip(fit.terms, fit.values, strict=True):
+        key = term.group.law.key if term.group.law else ""
+        if key == "delay":
+            delay += values["delay"]
+            moved |= abs(values["delay"]) > 1e-5
+        if key == "torque_constant" and term.group.joint is not None:
+            j = term.group.joint
+            step = float(np.clip(values["scale"], -0.5, 2.0))
+            scale[j] = (1 + scale[j]) * (1 + step) - 1
+            moved |= abs(step) > 1e-4
+    return Corrections(delay, scale) if moved else None

@@ -1,0 +1,93 @@
+"""Torque residuals and held-out errors [Nm] of the final model and of parts of it."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from app.diagnosis.motion.heldout import FOLDS, folds
+from app.diagnosis.motion.system import Group, System
+from app.kinematics.dynamics import PER_LINK
+
+
+class ErrorTable:
+    """The final model with any of its terms left out, the rest refitted.
+
+    Fold sums are assembled once; leaving a term out is leaving out its rows and columns.
+    """
+
+    def __init__(self, system: System, prior: np.ndarray, selected: list[Group], response: np.ndarray):
+        """Args:
+        prior: information on the leading unknowns.
+        response: (M, n) what the linear model is fitted to [Nm].
+        """
+        self.system, self.prior, self.selected, self.response = system, prior, selected, response
+        self.all = system.normal(selected)[:2]
+        every = folds(system.block_count)[:FOLDS]
+        self.folds = [(blocks, *system.normal(selected, blocks)[:2]) for blocks in every]
+        self.raw = raw_columns(system, selected)
+        _, self.positions, _ = system.layout(selected)
+        self._memory: dict[tuple[int, ...], float] = {}
+
+    def _keep(self, terms: list[int]) -> np.ndarray:
+        nuisance = len(self.all[1]) - sum(g.size for g in self.selected)
+        index, at = [np.arange(nuisance)], nuisance
+        for i, group in enumerate(self.selected):
+            if i in terms:
+                index.append(np.arange(at, at + group.size))
+            at += group.size
+        return np.concatenate(index)
+
+    def _theta(self, A: np.ndarray, g: np.ndarray, keep: np.ndarray) -> np.ndarray:
+        part = A[np.ix_(keep, keep)].copy()
+        i = len(self.prior)
+        part[:i, :i] += self.prior
+        scale = np.sqrt(np.maximum(np.diag(part), 1e-30))
+        part = part / scale / scale[:, None]
+        part[np.diag_indices_from(part)] += 1e-11
+        out = np.zeros(len(g))
+        out[keep] = np.linalg.solve(part, g[keep] / scale) / scale
+        return out
+
+    def residual(self, terms: list[int]) -> np.ndarray:
+        """(M, n) [Nm] with only these terms in the model."""
+        theta = self._theta(*self.all, self._keep(terms))
+        out = self.response.copy()
+        for j, (columns, pos) in enumerate(zip(self.raw, self.positions, strict=True)):
+            out[:, j] -= columns @ theta[pos]
+        return out
+
+    def heldout(self, terms: list[int]) -> float:
+        """Root mean square [Nm] on blocks left out, every fifth one in turn."""
+        key = tuple(terms)
+        if key not in self._memory:
+            self._memory[key] = float(np.sqrt(np.mean(self.heldout_joints(terms) ** 2)))
+        return self._memory[key]
+
+    def heldout_joints(self, terms: list[int]) -> np.ndarray:
+        """(n,) [Nm] the same, joint by joint."""
+        keep = self._keep(terms)
+        blocks_of, usable = self.system.samples.blocks, self.system.samples.usable
+        total, count = np.zeros(usable.shape[1]), np.zeros(usable.shape[1])
+        for blocks, A, g in self.folds:
+            theta = self._theta(self.all[0] - A, self.all[1] - g, keep)
+            rows = np.isin(blocks_of, blocks)
+            for j, (columns, pos) in enumerate(zip(self.raw, self.positions, strict=True)):
+                good = rows & usable[:, j]
+                left = self.response[good, j] - columns[good] @ theta[pos]
+                total[j] += left @ left
+                count[j] += good.sum()
+        return np.sqrt(total / np.maximum(count, 1))
+
+
+def raw_columns(system: System, selected: list[Group]) -> list[np.ndarray]:
+    """Per joint, the columns of a model before whitening, in the order of `System.layout`."""
+    samples = system.samples
+    out = []
+    for j in range(system.joints):
+        pieces = [samples.regressor[:, PER_LINK * j :, j]]
+        for group in selected:
+            if group.joint is None or group.joint == j:
+                columns = system.raw[group]
+                pieces.append(columns[:, j] if group.joint is None else columns)
+        out.append(np.concatenate(pieces, axis=1))
+    return out

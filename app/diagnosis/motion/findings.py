@@ -1,0 +1,148 @@
+"""The result: findings with uncertainty, residuals before and after, what pictures are drawn from."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from app.diagnosis.model import ModelEffect, SavedModel
+from app.diagnosis.motion.alternatives import alternatives_of
+from app.diagnosis.motion.errors import ErrorTable
+from app.diagnosis.result import Diagnosis, Evidence, Finding, Leftover, Noise, Parameter, Quality
+from app.kinematics import RobotModel
+
+if TYPE_CHECKING:
+    from app.diagnosis.motion.engine import Study
+
+
+def build(study: Study, robot: RobotModel, file: str) -> Diagnosis:
+    """Everything said of one log."""
+    fit, judgement, samples = study.fit, study.judgement, study.samples
+    table = ErrorTable(study.system, study.prior, [t.group for t in fit.terms], samples.y - fit.offset)
+    named = [i for i, good in enumerate(judgement.named) if good]
+    inflation = _inflation(study)
+    findings = [_finding(study, table, i, named, inflation) for i in named]
+    order = np.argsort([-judgement.gains[i] for i in named])
+    findings = [findings[k] for k in order]
+    after_residual = table.residual(named)
+    usable = samples.usable
+    after = Quality(_rms(after_residual, usable), table.heldout(named), "Nm")
+    before = Quality(_rms(study.before_residual, usable), study.before_heldout, "Nm")
+    leftover = Leftover(judgement.leftover_p, judgement.leftover_where)
+    structure = judgement.leftover_p <= 0.01 or not all(judgement.named)
+    if findings:
+        verdict = "partly" if structure else "named"
+    else:
+        verdict = "unexplained" if structure else "clean"
+    if verdict == "clean":
+        leftover = Leftover(judgement.leftover_p, {})
+    spread = float(np.sqrt(np.mean([w.spread**2 for w in study.system.whiteners if w.weight.any()])))
+    noise = Noise(spread * np.sqrt(samples.window), "Nm", "residual")
+    log = study.log
+    centre = samples.index.reshape(-1, samples.window)[:, samples.window // 2]
+    state = samples.state
+    n = robot.joint_count
+    drivers = {"time [s]": samples.t}
+    for j in range(n):
+        drivers[f"q{j + 1} [rad]"] = samples.pool(state.q[:, j])
+        drivers[f"qd{j + 1} [rad/s]"] = samples.pool(state.qd[:, j])
+        drivers[f"qdd{j + 1} [rad/s^2]"] = samples.pool(state.qdd[:, j])
+        drivers[f"gravity torque {j + 1} [Nm]"] = samples.pool(state.gravity_torque[:, j])
+        if state.temperature is not None:
+            drivers[f"temperature {j + 1} [degC]"] = samples.pool(state.temperature[:, j])
+    measured = samples.y + samples.pool(state.torque)
+    evidence = Evidence(
+        rows=log.rows[centre], measured=measured, before=study.before_residual, after=after_residual,
+        components=tuple(f"joint {j + 1}" for j in range(n)), unit="Nm", q=samples.pool(state.q),
+        drivers=drivers, kept=np.asarray(usable.any(axis=1)),
+    )  # fmt: skip
+    model = SavedModel(
+        "motion",
+        robot.name,
+        tuple(
+            ModelEffect(f.effect, dict(f.where), {p.name: p.value for p in f.parameters}) for f in findings
+        ),
+        {"inertial": [float(v) for v in fit.solution.theta[: study.system.inertial_size]]},
+        file,
+    )
+    return Diagnosis(
+        file=file, kind="motion", robot=robot.name, samples=len(log.t), verdict=verdict, noise=noise,
+        before=before, after=after, findings=tuple(findings),
+        outliers=tuple(int(r) for r in log.dropped), leftover=leftover, next_poses=(), seconds=0.0,
+        notes=_notes(study), model=model.to_dict(), evidence=evidence,
+    )  # fmt: skip
+
+
+def _finding(study: Study, table: ErrorTable, index: int, named: list[int], inflation: np.ndarray) -> Finding:
+    fit, term = study.fit, study.fit.terms[index]
+    law, group = term.group.law, term.group
+    assert law is not None
+    values, covariance = dict(fit.values[index]), fit.covariances[index]
+    std = np.sqrt(np.maximum(np.diag(covariance), 0.0))
+    std = std * (inflation[group.joint] if group.joint is not None else float(np.max(inflation)))
+    if law.key == "delay":
+        values["delay"] += study.corrections.delay
+    if law.key == "torque_constant" and group.joint is not None:
+        done = study.corrections.scale[group.joint]
+        values["scale"] = (1 + done) * (1 + values["scale"]) - 1
+        std = std * (1 + done)
+    parameters = tuple(
+        Parameter(name, float(value), float(s), law.units.get(name, ""))
+        for (name, value), s in zip(values.items(), std, strict=True)
+    )
+    where = {k: (round(v, 4) if isinstance(v, float) else v) for k, v in group.where.items()}
+    others = [i for i in named if i != index]
+    return Finding(
+        effect=law.key,
+        where=where,
+        parameters=parameters,
+        visible=term.visible,
+        p_value=term.p_value,
+        heldout_rms_without=table.heldout(others),
+        heldout_rms_with=table.heldout(named),
+        alternatives=alternatives_of(study, index),
+        sentence=law.explain(where, values),
+        equation=law.equation,
+    )
+
+
+def _inflation(study: Study) -> np.ndarray:
+    """(n,) how much larger each joint's whitened residual is than the noise it was whitened by; 1 or more."""
+    out = []
+    solution = study.fit.solution
+    for part, col, pos, whitener in zip(
+        study.system.parts, solution.columns, solution.positions, study.system.whiteners, strict=True
+    ):
+        left = part.columns[:, 0] - part.columns[:, col] @ solution.theta[pos]
+        count = max(int(np.count_nonzero(whitener.weight)), 1)
+        out.append(np.sqrt(max(float(left @ left) / count, 1.0)))
+    return np.array(out)
+
+
+def _rms(residual: np.ndarray, usable: np.ndarray) -> float:
+    return float(np.sqrt(np.mean(residual[usable] ** 2))) if usable.any() else float("nan")
+
+
+def _notes(study: Study) -> tuple[str, ...]:
+    samples, log = study.samples, study.log
+    notes = [*log.notes, samples.smoothing.sentence()]
+    if samples.thinned:
+        notes.append(
+            f"{len(samples.index)} of {len(log.t)} samples were used, in windows of {samples.window} "
+            "taken evenly over the log"
+        )
+    elif samples.window > 1:
+        notes.append(f"torques and columns were averaged over windows of {samples.window} samples")
+    if study.prior_scale > 1:
+        notes.append(
+            f"the description's masses are further off than believed: its prior was widened {study.prior_scale:g} times"
+        )
+    lags = [len(w.lags) for w in study.system.whiteners]
+    if max(lags):
+        notes.append(
+            "the noise hangs together in time; autoregressions of order "
+            + ", ".join(map(str, lags))
+            + " (joints in order) were taken out"
+        )
+    return (*notes, *study.judgement.reasons)

@@ -1,0 +1,215 @@
+"""A joint log as arrays: rows that cannot be used are set aside and counted, never repaired."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from itertools import pairwise
+
+import numpy as np
+
+from app.diagnosis.motion.checks import backwards_rows, check_moves, check_units, spikes
+from app.errors import CellValueError, InputError, MissingColumnError
+from app.kinematics import RobotModel
+from app.recordings import Table
+
+MOST_BROKEN = 0.6  # share of unusable rows above which a log is refused
+FEWEST = 60  # usable samples
+GAP = 6.0  # in sampling steps
+
+
+@dataclass(frozen=True, eq=False)
+class Log:
+    """Usable samples of a motion recording, in SI units.
+
+    Args:
+        t: (m,) [s], rising.
+        q: (m, n) [rad or m].
+        qd: (m, n) recorded speed, or None.
+        y: (m, n) torque [Nm], or current [A] while the drive gains are unknown.
+        current: True where `y` is a current still.
+        temperature: (m, n) [degC] or None.
+        commanded: (m, n) [rad or m] or None.
+        rows: (m,) line numbers.
+        segments: runs without a gap.
+        step: usual sampling step [s].
+        dropped: line numbers of rows set aside.
+        notes: what a person should know of it.
+    """
+
+    t: np.ndarray
+    q: np.ndarray
+    qd: np.ndarray | None
+    y: np.ndarray
+    current: bool
+    temperature: np.ndarray | None
+    commanded: np.ndarray | None
+    rows: np.ndarray
+    segments: list[slice]
+    step: float
+    total: int
+    dropped: np.ndarray
+    stated_noise: np.ndarray | None = None
+    notes: tuple[str, ...] = field(default=())
+
+
+def read_log(table: Table, robot: RobotModel) -> Log:
+    """Reads and checks a motion recording.
+
+    Raises:
+        InputError: names file, row and column of what cannot be used.
+    """
+    n = robot.joint_count
+    joints = range(1, n + 1)
+    if f"q{n + 1}" in table.columns:
+        raise InputError(
+            f"there are more joint columns than the robot's {n} joints",
+            file=table.path,
+            row=table.header_row,
+            column=f"q{n + 1}",
+            expected=f"q1 to q{n} for {robot.name}",
+        )
+    table.require(["t", *[f"q{j}" for j in joints]])
+    notes: list[str] = []
+    t = table.tolerant("t")
+    q = np.stack([table.tolerant(f"q{j}") for j in joints], axis=1)
+    y, current = _torques(table, n, notes)
+    qd = temperature = commanded = None
+    if table.has(*[f"qd{j}" for j in joints]):
+        qd = np.stack([table.tolerant(f"qd{j}") for j in joints], axis=1)
+    elif any(table.has(f"qd{j}") for j in joints):
+        notes.append("recorded speed is there for some joints only and was not used")
+    if table.has(*[f"temperature{j}" for j in joints]):
+        temperature = np.stack([table.tolerant(f"temperature{j}") for j in joints], axis=1)
+    if table.has(*[f"qc{j}" for j in joints]):
+        commanded = np.stack([table.tolerant(f"qc{j}") for j in joints], axis=1)
+    rows = np.asarray(table.rows)
+    total = len(t)
+    good = np.asarray(np.isfinite(np.column_stack([t, q, y])).all(axis=1))
+    if qd is not None and good.any() and np.mean(np.isfinite(qd[good])) < 0.5:
+        notes.append("most recorded speeds are missing; speed is taken from position")
+        qd = None
+    if qd is not None:
+        good &= np.isfinite(qd).all(1)
+    _refuse_if_few(good, rows, table, "broken", t, q, y)
+    order = np.flatnonzero(good)
+    back = backwards_rows(t[order], rows[order], table)
+    good[order[back]] = False
+    order = np.flatnonzero(good)
+    wild = spikes(t[order], q[order], qd[order] if qd is not None else None, y[order], robot)
+    good[order[wild]] = False
+    _refuse_if_few(good, rows, table, "broken", t, q, y)
+    dropped = rows[~good]
+    if len(dropped):
+        share = len(dropped) / total
+        notes.append(
+            f"{len(dropped)} of {total} rows ({share:.1%}) were set aside: empty, not numbers, out of order or wild"
+        )
+    t, q, y, rows = t[good], q[good], y[good], rows[good]
+    qd = None if qd is None else qd[good]
+    step = float(np.median(np.diff(t)))
+    qd = check_units(t, q, qd, rows, table, robot, notes)
+    check_moves(q, y, table, notes)
+    cuts = np.flatnonzero(np.diff(t) > GAP * step) + 1
+    edges = [0, *cuts.tolist(), len(t)]
+    segments = [slice(a, b) for a, b in pairwise(edges) if b - a >= 8]
+    if not segments:
+        raise InputError(
+            "the log is nothing but gaps", file=table.path, column="t_s", expected="even sampling"
+        )
+    if len(cuts):
+        notes.append(f"{len(cuts)} gaps in time; each run between gaps is filtered by itself")
+    kept = np.zeros(len(t), bool)
+    for part in segments:
+        kept[part] = True
+    temperature = _filled(temperature, good)
+    commanded = _filled(commanded, good)
+    if not kept.all():
+        index = np.flatnonzero(kept)
+        t, q, y, rows = t[index], q[index], y[index], rows[index]
+        qd = None if qd is None else qd[index]
+        temperature = None if temperature is None else temperature[index]
+        commanded = None if commanded is None else commanded[index]
+        sizes = np.cumsum([0, *[s.stop - s.start for s in segments]])
+        segments = [slice(int(a), int(b)) for a, b in pairwise(sizes)]
+    return Log(
+        t, q, qd, y, current, temperature, commanded, rows, segments, step, total, dropped,
+        _stated_noise(table, n), tuple(notes),
+    )  # fmt: skip
+
+
+def _torques(table: Table, n: int, notes: list[str]) -> tuple[np.ndarray, bool]:
+    """Torque [Nm], or current [A] with True where no gain is given."""
+    joints = range(1, n + 1)
+    if table.has(*[f"tau{j}" for j in joints]):
+        return np.stack([table.tolerant(f"tau{j}") for j in joints], axis=1), False
+    if table.has("i1"):
+        table.require([f"i{j}" for j in joints])
+        current = np.stack([table.tolerant(f"i{j}") for j in joints], axis=1)
+        gain = table.keys.get("drive_gain_Nm_per_A")
+        if gain is None:
+            return current, True
+        try:
+            gains = np.array(gain, float).reshape(-1)
+        except (TypeError, ValueError):
+            gains = np.full(1, np.nan)
+        if len(gains) != n or not np.all(np.isfinite(gains)) or np.any(gains == 0):
+            raise CellValueError(
+                f"found {str(gain)[:60]!r}",
+                file=table.path,
+                column="drive_gain_Nm_per_A",
+                expected=f"a list of {n} numbers, none of them 0",
+            )
+        notes.append("torques are motor currents times the stated drive gains")
+        return current * gains, False
+    raise MissingColumnError(
+        "neither torques nor motor currents for every joint",
+        file=table.path,
+        row=table.header_row,
+        column="tau1_Nm",
+        expected=f"tau1_Nm to tau{n}_Nm, or i1_A to i{n}_A",
+    )
+
+
+def _stated_noise(table: Table, n: int) -> np.ndarray | None:
+    """(n,) stated one-sigma noise of the torques [Nm], where the header has a usable one."""
+    stated = table.keys.get("noise_Nm")
+    if stated is None:
+        return None
+    try:
+        noise = np.broadcast_to(np.array(stated, float).reshape(-1), (n,)).astype(float)
+    except (TypeError, ValueError):
+        noise = np.full(n, np.nan)
+    if not np.all(np.isfinite(noise)) or np.any(noise < 0):
+        raise CellValueError(
+            f"found {str(stated)[:60]!r}",
+            file=table.path,
+            column="noise_Nm",
+            expected=f"one positive number, or {n} of them",
+        )
+    return noise if np.all(noise > 0) else None
+
+
+def _refuse_if_few(good, rows, table, what, t, q, y) -> None:
+    if good.sum() >= max(FEWEST, (1.0 - MOST_BROKEN) * len(good)):
+        return
+    first = int(rows[np.flatnonzero(~good)[0]]) if not good.all() else None
+    raise InputError(
+        f"{int((~good).sum())} of {len(good)} rows are {what} and {int(good.sum())} are left",
+        file=table.path,
+        row=first,
+        expected=f"at least {FEWEST} usable rows, and most of the file",
+    )
+
+
+def _filled(values: np.ndarray | None, good: np.ndarray) -> np.ndarray | None:
+    """Missing values carried over from their neighbours; None where there are hardly any."""
+    if values is None:
+        return None
+    values = values[good]
+    known = np.isfinite(values)
+    if np.any(known.mean(0) < 0.2):
+        return None
+    index = np.arange(len(values))
+    return np.stack(
+        [np.interp(index, index[k], v[k]) for v, k in zip(values.T, known.T, strict=True)], axis=1
+    )

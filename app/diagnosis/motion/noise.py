@@ -1,0 +1,70 @@
+"""Noise of each joint from what no law and no curve explains."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from app.diagnosis.motion.sampling import Samples
+from app.diagnosis.motion.system import Group
+from app.diagnosis.motion.whitening import Whitener, estimate
+from app.kinematics.dynamics import PER_LINK
+
+_RIDGE = 1e-9
+_LOUD = 3.0  # times the usual variance of a block: something happened there
+
+
+def whiteners_of(
+    samples: Samples,
+    shared: list[tuple[Group, np.ndarray]],
+    local: list[list[tuple[Group, np.ndarray]]],
+    extra: list[tuple[Group, np.ndarray]] = [],  # noqa: B006  (never written to)
+) -> list[Whitener]:
+    """One whitener a joint, from the residual of everything at once.
+
+    Args:
+        shared, local: all laws and curves.
+        extra: groups that were found and are in neither (windows).
+    """
+    return [_whitener(samples, shared, local[j], extra, j) for j in range(samples.y.shape[1])]
+
+
+def _whitener(samples: Samples, shared, local, extra, j: int) -> Whitener:
+    usable = samples.usable[:, j]
+    if not usable.any():
+        return estimate(samples.y[:, j], usable, samples.runs, 0.0)
+    pieces = [samples.regressor[:, PER_LINK * j :, j]]
+    pieces += [v[:, j] for g, v in shared if not g.base]
+    pieces += [v for _, v in local]
+    pieces += [v[:, j] if g.joint is None else v for g, v in extra if g.joint in (None, j)]
+    columns = np.concatenate(pieces, axis=1)
+    y = samples.y[:, j]
+    quiet = usable.copy()
+    residual, spent = _left(columns, y, quiet)
+    variance = np.array([np.mean(residual[r] ** 2) if len(r) else np.nan for r in _rows(samples, usable)])
+    loud = variance > _LOUD * np.nanmedian(variance)
+    if loud.any() and loud.mean() < 0.5:
+        quiet &= ~loud[samples.blocks]
+        residual, spent = _left(columns, y, quiet)
+    fitted = estimate(residual, quiet, samples.runs, spent)
+    # The loud blocks count again in the search: only the noise was not learnt from them.
+    lags = len(fitted.lags)
+    from app.diagnosis.motion.whitening import weights
+
+    return Whitener(fitted.lags, fitted.sigma, weights(usable, samples.runs, lags))
+
+
+def _rows(samples: Samples, usable: np.ndarray) -> list[np.ndarray]:
+    return [np.flatnonzero(usable & (samples.blocks == b)) for b in range(samples.block_count)]
+
+
+def _left(columns: np.ndarray, y: np.ndarray, rows: np.ndarray) -> tuple[np.ndarray, float]:
+    """Residual on all rows of a ridge fit on `rows`, and the parameters it spent."""
+    scale = np.sqrt(np.mean(columns[rows] ** 2, axis=0))
+    used = scale > 1e-12
+    scaled = columns[:, used] / scale[used]
+    part = scaled[rows]
+    gram = part.T @ part / len(part)
+    values, vectors = np.linalg.eigh(gram)
+    keep = values > _RIDGE * values[-1]
+    theta = vectors[:, keep] @ ((vectors[:, keep].T @ (part.T @ y[rows] / len(part))) / values[keep])
+    return y - scaled @ theta, float(keep.sum())
