@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import itertools
+
 import numpy as np
 import viser
 
@@ -17,6 +19,7 @@ from app.session import SessionState
 from app.session.state import accepted
 from app.simulation.world import World
 
+_NUMBERS = itertools.count(1)
 _HANDLE = 0.13  # size of the handle, as a share of the reach
 
 
@@ -36,7 +39,8 @@ class Stage:
         light_up(self._scene)
         self.floor(dark)
         self.cell(world)
-        self.arm = ArmView(self._scene, world.robot)
+        # A name of its own each time: the page keeps the pose of a removed node for the next one of that name.
+        self.arm = ArmView(self._scene, world.robot, root=f"/arm{next(_NUMBERS)}")
         if "tool" not in world.robot.description:
             draw_shapes(
                 self._scene, f"{self.arm.flange_path}/pointer", pointer_shapes(world.T_flange_tool_true)
