@@ -15,8 +15,8 @@ import pinocchio as pin  # pyright: ignore[reportMissingImports]  (found through
 
 from app.geometry.pose import Pose
 from app.kinematics.robot import RobotModel
-from app.kinematics.shapes import Shape, read_shapes
-from app.kinematics.solids import outline, stick_figure
+from app.kinematics.shapes import Shape
+from app.kinematics.solids import outline, robot_shapes
 
 #: Pairs that may touch: that is what a touch is.
 ALLOWED = (("tool tip", "spike"),)
@@ -167,7 +167,7 @@ class CollisionWorld:
 
 def _bodies(robot: RobotModel, tool_shapes: Sequence[Shape], obstacles: Sequence[Shape]):
     """(body, name, coal solid, T_body_solid) of links, then tool, then obstacles."""
-    drawn = read_shapes(robot.path, tuple(j.name for j in robot.joints)) or stick_figure(robot)
+    drawn = robot_shapes(robot)
     chain = robot.chain
     T_body_flange = Pose.of(chain.flange_rotation, chain.flange_translation)
     held = [shape.moved(robot.joint_count, T_body_flange) for shape in tool_shapes]

@@ -18,7 +18,9 @@ Reason = Literal["reached", "limit", "singular", "out_of_reach"]
 #: One radian weighs as much as this many metres, so that a step balances both.
 ROTATION_WEIGHT = 0.3
 _LARGEST_STEP = 0.5  # rad (or m): a linear model is not believed further than this
-_RESTARTS, _RESTART_STEPS = 6, 40
+_RESTARTS, _RESTART_STEPS = 12, 50
+_RADIUS_MARGIN = 1.01  # the radius is found by search
+_HOPELESS = 0.003  # a search for the reason gives up where a step wins less than this share of the error
 _EYE, _ZERO = np.eye(6), np.zeros(3)
 
 
@@ -68,6 +70,7 @@ def solve_ik(
     position_tolerance: float = 1e-6,
     rotation_tolerance: float = 1e-6,
     damping: float = 1e-4,
+    explain: bool = True,
 ) -> IkResult:
     """Joint angles that bring the tool to `target`, from `q_start`.
 
@@ -85,13 +88,16 @@ def solve_ik(
         max_steps: bound on the iterations.
         position_tolerance: [m].
         rotation_tolerance: [rad].
+        explain: False spares the search for the reason (milliseconds where the target is not reached, for a
+            drag at 20 a second): a joint held by its limit is named, and being stuck without one is called
+            "singular", as every such place is.
 
     Source: Sugihara (2011), error-proportional damping; limits by an active set.
     """
     problem = _Problem(robot, target, T_flange_tool, position_tolerance, rotation_tolerance)
     start = problem.inside(np.asarray(q_start, float))
     q, error, done, held, steps = problem.descend(start, max_steps, damping, limited=True)
-    reason: Reason = "reached" if done else problem.why(q, held, damping)
+    reason: Reason = "reached" if done else problem.why(q, held, damping, explain)
     return IkResult(
         q,
         reason,
@@ -192,7 +198,7 @@ class _Problem:
                 trial = self.inside(trial)
             trial_e, trial_lever, trial_cost, done = self.error(trial)
             if trial_cost < cost:
-                stalled = cost - trial_cost < 1e-9 * cost
+                stalled = cost - trial_cost < (1e-9 if limited else _HOPELESS) * cost
                 q, e, lever, cost, jacobian = trial, trial_e, trial_lever, trial_cost, None
                 factor = max(factor * 0.3, 1e-3)
                 if stalled:
@@ -204,14 +210,15 @@ class _Problem:
                     break
         return q, e, done, tuple(k + 1 for k, stuck in enumerate(held) if stuck), steps
 
-    def why(self, q: np.ndarray, held: tuple[int, ...], damping: float) -> Reason:
+    def why(self, q: np.ndarray, held: tuple[int, ...], damping: float, explain: bool) -> Reason:
         """What kept the arm from the target."""
-        robot, chain = self.robot, self.robot.chain
+        robot = self.robot
         flange = self.position - self.rotation.rotation @ self.lever
-        slides = np.where(chain.prismatic, np.maximum(np.abs(robot.lower), np.abs(robot.upper)), 0.0)
-        spans = np.linalg.norm([*chain.translations[1:], chain.flange_translation], axis=1)
-        if np.linalg.norm(flange - chain.translations[0]) > spans.sum() + slides.sum() + 1e-6:
-            return "out_of_reach"  # beyond the sum of all lengths: no need to try
+        distance = math.dist(flange.tolist(), robot.chain.translations[0].tolist())
+        if distance > _RADIUS_MARGIN * robot.radius:
+            return "out_of_reach"  # farther than the arm gets in any direction: no need to try
+        if not explain:
+            return "limit" if held else "singular"
         rng = np.random.default_rng(0)
         start = q
         for _ in range(1 + _RESTARTS):

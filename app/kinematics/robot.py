@@ -129,25 +129,29 @@ class RobotModel:
 
     @cached_property
     def reach(self) -> float:
-        """Largest distance of the flange from the axis of joint 1 [m], over the elbow's and shoulder's range.
+        """Largest distance of the flange from the axis of joint 1 [m]; limits are respected."""
+        return self._farthest(level=True)
 
-        Found by search, not by adding lengths: limits are respected.
-        """
+    @cached_property
+    def radius(self) -> float:
+        """Largest distance of the flange from the origin of joint 1 [m]; limits are respected."""
+        return self._farthest(level=False)
+
+    def _farthest(self, *, level: bool) -> float:
+        """Found by search, not by adding lengths: random poses, then a climb from the best few."""
         rng = np.random.default_rng(0)
         low, high = np.clip(self.lower, -np.pi, np.pi), np.clip(self.upper, -np.pi, np.pi)
-        best = 0.0
-        samples = rng.uniform(low, high, (4000, self.joint_count))
-        frames = self.chain.frames(samples)
-        axis, origin = frames.axes[:, 0], frames.joint_positions[:, 0]
+        frames = self.chain.frames(low[None])
+        origin, axis = frames.joint_positions[0, 0], frames.axes[0, 0]
 
         def distance(q: np.ndarray) -> np.ndarray:
-            p = self.chain.frames(q).flange_positions - origin[0]
-            return np.linalg.norm(p - (p @ axis[0])[:, None] * axis[0], axis=1)
+            p = self.chain.frames(q).flange_positions - origin
+            return np.linalg.norm(p - (p @ axis)[:, None] * axis if level else p, axis=1)
 
-        values = distance(samples)
-        for q in samples[np.argsort(values)[-5:]]:  # climb from the best few
-            step = 0.3
-            value = float(distance(q[None])[0])
+        samples = rng.uniform(low, high, (2000, self.joint_count))
+        values, best = distance(samples), 0.0
+        for q in samples[np.argsort(values)[-5:]]:
+            step, value = 0.3, float(distance(q[None])[0])
             while step > 1e-4:
                 trials = np.clip(q + rng.normal(0, step, (64, len(q))), low, high)
                 found = distance(trials)

@@ -40,10 +40,18 @@ class Solid:
 
 
 def robot_solids(robot: RobotModel) -> tuple[Solid, ...]:
-    """Solids of a robot's links: as drawn in its description, else a stick figure of its joints."""
-    names = tuple(joint.name for joint in robot.joints)
-    shapes = read_shapes(robot.path, names)
-    return solids(shapes or stick_figure(robot))
+    """Solids of a robot's links, see `robot_shapes`."""
+    return solids(robot_shapes(robot))
+
+
+def robot_shapes(robot: RobotModel) -> tuple[Shape, ...]:
+    """Shapes of a robot's links: as its description draws them, else a stick figure of its joints.
+
+    A description whose meshes are elsewhere draws too little of itself: less than half of its bodies.
+    """
+    shapes = read_shapes(robot.path, tuple(joint.name for joint in robot.joints))
+    drawn = {shape.body for shape in shapes} - {0}
+    return shapes if 2 * len(drawn) >= robot.joint_count else stick_figure(robot)
 
 
 def tool_shapes(robot: RobotModel) -> tuple[Shape, ...]:

@@ -128,6 +128,28 @@ def test_the_middle_of_the_base_is_out_of_reach_though_it_is_near(tmp_path):
     assert result.reason == "out_of_reach"
 
 
+@pytest.mark.parametrize("name", robot_names())
+def test_what_some_joint_angles_reach_is_never_called_out_of_reach(name):
+    robot = load_robot(name)
+    rng = np.random.default_rng(1)
+    for _ in range(30):
+        goal = rng.uniform(np.maximum(robot.lower, -3), np.minimum(robot.upper, 3))
+        assert solve_ik(robot, robot.forward(goal), robot.home).reason != "out_of_reach", goal
+
+
+def test_without_an_explanation_the_pose_is_the_same_and_a_limit_is_still_named():
+    robot = load_robot("jby50")
+    start, beyond = robot.home.copy(), robot.home.copy()
+    start[0], beyond[0] = robot.upper[0] - 0.05, robot.upper[0] + 0.10
+    target = robot.forward(beyond)
+    full, quick = (solve_ik(robot, target, start, explain=explain) for explain in (True, False))
+    assert np.array_equal(full.q, quick.q)
+    assert quick.reason == "limit" and quick.joints == (1,)
+    here = robot.forward(robot.home)
+    far = Pose.of(here.rotation, here.position + np.array([5.0, 0.0, 0.0]))
+    assert solve_ik(robot, far, robot.home, explain=False).reason == "out_of_reach"
+
+
 def test_a_chain_of_small_drags_follows_without_a_jump():
     robot = load_robot("jby50")
     start = robot.forward(robot.home)
