@@ -21,6 +21,8 @@ from app.recordings import Table, read_table
 #: Joints and pose of one row that differ by more than this do not belong together.
 POSITION_TOLERANCE, ANGLE_TOLERANCE = 1e-3, 2e-3
 _QUATERNION_TOLERANCE = 0.02
+#: Beyond these a number is a mistake, not a unit that was mixed up [m, rad].
+_FARTHEST, _MOST_TURNED = 1e5, 1e4
 
 
 @dataclass(frozen=True, eq=False)
@@ -133,7 +135,7 @@ def _written_pose(table: Table) -> Written | None:
     if form is None:
         return None
     names = ["x", "y", "z", *form.columns]
-    values = table.numbers(names)
+    values = _within(table, names, 3)
     if not form.angular:
         norms = np.linalg.norm(values[:, 3:], axis=1)
         bad = np.flatnonzero(np.abs(norms - 1.0) > _QUATERNION_TOLERANCE)
@@ -227,7 +229,24 @@ def _written_joints(table: Table) -> tuple[Written, RobotModel] | None:
         out[:, :3, 3] = frames.flange_positions
         return out
 
-    return Written(_named(table, names), table.numbers(names), _steps(table, names), poses, None), robot
+    return Written(_named(table, names), _within(table, names, 0), _steps(table, names), poses, None), robot
+
+
+def _within(table: Table, names: list[str], lengths: int) -> np.ndarray:
+    """(n, k) the columns in SI units, the first `lengths` of them lengths; refused where no flange can be."""
+    values = table.numbers(names)
+    largest = np.where(np.arange(len(names)) < lengths, _FARTHEST, _MOST_TURNED)
+    wrong = np.argwhere(np.abs(values) > largest)
+    if len(wrong):
+        row, column = wrong[0]
+        raise CellValueError(
+            f"found {(table.raw(names[column])[row] or '')[:40]!r}",
+            file=table.path,
+            row=int(table.rows[row]),
+            column=table.columns[names[column]].name,
+            expected="a position within 100 km" if column < lengths else "an angle of a few turns at most",
+        )
+    return values
 
 
 def _named(table: Table, names: list[str]) -> tuple[str, ...]:

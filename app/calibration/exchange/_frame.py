@@ -1,0 +1,124 @@
+"""What travels: a named tool frame with its load, and what every format can do with it."""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import dataclass, field
+from typing import Protocol
+
+import numpy as np
+
+from app.errors import FileFormatError
+from app.geometry import Pose
+from app.units import mm
+
+#: Nothing that holds one tool frame is larger [bytes].
+LARGEST = 1_000_000
+#: A number as all these formats write it.
+NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
+#: No tool is longer [m], and no number of an orientation larger.
+_FARTHEST, _LARGEST_NUMBER = 1e3, 1e6
+_SKEW = 1e-3
+
+
+@dataclass(frozen=True)
+class ToolFrame:
+    """A tool as a controller stores it.
+
+    Args:
+        name: letters, digits and underscores, not starting with a digit.
+        pose: T_flange_tool.
+        mass: of the tool [kg]; 0 where it is not known.
+        com: (3,) its centre of mass in the flange [m].
+    """
+
+    name: str
+    pose: Pose
+    mass: float = 0.0
+    com: tuple[float, float, float] = field(default=(0.0, 0.0, 0.0))
+
+    def __post_init__(self):
+        object.__setattr__(self, "name", safe_name(self.name))
+
+
+class ExchangeFormat(Protocol):
+    """A file under exchange/ with an object `FORMAT` of this shape is a format."""
+
+    key: str
+    title: str
+    suffix: str
+
+    def knows(self, text: str) -> bool:
+        """True where `text` looks like this format."""
+        ...
+
+    def write(self, frame: ToolFrame) -> str:
+        """The frame as text."""
+        ...
+
+    def read(self, text: str) -> ToolFrame:
+        """The first tool frame in `text`.
+
+        Raises:
+            FileFormatError: there is none, or its numbers cannot be used.
+        """
+        ...
+
+
+def safe_name(name: str) -> str:
+    """A name that every controller takes: at most 32 letters, digits and underscores."""
+    clean = re.sub(r"[^A-Za-z0-9_]", "_", name)[:32]
+    return clean if clean and not clean[0].isdigit() else "t" + clean[:31]
+
+
+def number(text: str, row: int | None = None, column: str | None = None) -> float:
+    """A finite number of reasonable size."""
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not abs(value) <= _LARGEST_NUMBER:
+        raise FileFormatError(f"found {text[:40]!r}", row=row, column=column, expected="a finite number")
+    return value
+
+
+def frame_of(
+    name: str, rotation: np.ndarray, position: np.ndarray, mass: float = 0.0, com: np.ndarray | None = None
+) -> ToolFrame:
+    """A frame from what was read, checked: a rotation is a rotation, a tool is not a kilometre long."""
+    position, rotation = np.asarray(position, float), np.asarray(rotation, float)
+    if not np.isfinite(position).all() or np.abs(position).max() > _FARTHEST:
+        raise FileFormatError("the tool point is no tool's", column="x, y, z", expected="metres within reach")
+    sound = np.isfinite(rotation).all() and np.abs(rotation.T @ rotation - np.eye(3)).max() < _SKEW
+    if not sound or np.linalg.det(rotation) < 0:
+        raise FileFormatError("the orientation is no rotation", expected="a right-handed, square frame")
+    if not (math.isfinite(mass) and mass >= 0.0):
+        mass = 0.0
+    x, y, z = (0.0, 0.0, 0.0) if com is None else (float(v) for v in com)
+    return ToolFrame(name, Pose.of(rotation, position), mass, (x, y, z))
+
+
+def unit_quaternion(numbers: list[float]) -> np.ndarray:
+    """Four numbers as a unit quaternion (wxyz)."""
+    q = np.array(numbers, float)
+    length = float(np.linalg.norm(q))
+    if not abs(length - 1.0) < 0.01:
+        raise FileFormatError(f"the quaternion has length {length:.4g}", expected="length 1")
+    return q / length
+
+
+def written(value: float, places: int = 7) -> str:
+    """A number with its trailing zeros taken off; never `-0`."""
+    text = f"{value:.{places}f}".rstrip("0").rstrip(".")
+    return "0" if text in ("-0", "") else text
+
+
+def written_mm(values: np.ndarray) -> list[str]:
+    """Metres -> millimetres as text."""
+    return [written(v) for v in mm(np.asarray(values, float))]
+
+
+def row_of(text: str, place: int) -> int:
+    """Line number of a place in the text, from 1."""
+    return text.count("\n", 0, place) + 1
