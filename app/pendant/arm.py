@@ -15,7 +15,7 @@ import viser
 from app.geometry.pose import Pose
 from app.geometry.rotation import quaternion_from_rotation
 from app.kinematics import RobotModel, load_robot
-from app.kinematics.shapes import Shape
+from app.kinematics.shapes import Shape, rod
 from app.kinematics.solids import Solid, faces, robot_solids, solids, tool_shapes
 
 GHOST_OPACITY = 0.35
@@ -59,7 +59,7 @@ class ArmView:
                 )
             )
         self.flange_path = f"{paths[-1]}/flange"
-        scene.add_frame(
+        self._flange = scene.add_frame(
             self.flange_path,
             show_axes=False,
             wxyz=tuple(quaternion_from_rotation(chain.flange_rotation)),
@@ -110,8 +110,6 @@ def draw_shapes(
 
 def pointer_shapes(T_flange_tool: Pose) -> tuple[Shape, ...]:
     """A plain pointer from the flange to a tool point, for tools that have no drawing of their own."""
-    from app.kinematics.shapes import rod
-
     tip = T_flange_tool.position
     length = float(np.linalg.norm(tip))
     if length < 1e-4:
