@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from app.diagnosis.report.curves import driver_curves
 from app.diagnosis.result import Diagnosis
 from app.pendant.screens._compare import cards, plots
-from app.pendant.screens._compare.drawing import Drawing
+from app.pendant.screens._compare.drawing import Drawing, look_at
 from app.pendant.screens._compare.finding import Search
 from app.pendant.screens._compare.giving import send_model, send_report
 from app.pendant.screens._compare.kept import kept_for
@@ -44,8 +44,8 @@ class _View:
         pendant.clicked(self._play, self._start_play)
         self._search = Search(pendant, lambda: self._kept.loaded, self._found)
         self._verdict = gui.add_html("", visible=False)
-        self._apply = gui.add_checkbox(t("compare.apply"), False, visible=False, hint=t("compare.apply_hint"))
-        pendant.changed(self._apply, "compare.apply", self._put_in)
+        self._apply = gui.add_button(t("compare.apply"), visible=False, hint=t("compare.apply_hint"))
+        pendant.clicked(self._apply, self._put_in)
         self._bars = gui.add_html("", visible=False)
         self._findings = gui.add_html("", visible=False)
         self._next = gui.add_checkbox(t("compare.next"), False, visible=False, hint=t("compare.next_hint"))
@@ -88,7 +88,8 @@ class _View:
         self._drawing = Drawing(self._pendant.client.scene, loaded)
         factor = min(_FACTORS, key=lambda f: abs(f - loaded.factor))
         self._factor.value = f"× {factor}"
-        self._index, self._share = 0, 1.0 if loaded.applied else 0.0
+        self._index, self._share = loaded.worst, 1.0 if loaded.applied else 0.0
+        look_at(self._pendant.client.camera, loaded)
         self._show(loaded)
         self._pendant.say(
             "info", self._pendant.t("compare.loaded", file=loaded.path.name, count=loaded.count)
@@ -109,7 +110,7 @@ class _View:
     def _show(self, loaded: Loaded) -> None:
         """Every widget by what is known of the recording."""
         pendant, found = self._pendant, loaded.diagnosis
-        self._intro.visible = False
+        self._intro.visible = self._source_folder.visible = False
         self._about.content = cards.recording(pendant, loaded)
         self._row.max = loaded.count
         self._row.value = self._index + 1
@@ -121,7 +122,7 @@ class _View:
         effects = found is not None and bool(found.findings)
         self._verdict.visible = self._bars.visible = self._give_folder.visible = found is not None
         self._findings.visible = self._apply.visible = self._model.visible = effects
-        self._apply.value = loaded.applied
+        self._apply.label = self._pendant.t("compare.take_out" if loaded.applied else "compare.apply")
         self._next.visible = found is not None and bool(found.next_poses)
         self._next.value = False
         self._reveal.visible = bool(loaded.truth)
@@ -152,14 +153,16 @@ class _View:
         self._index = int(value) - 1
         self._draw()
 
-    def _put_in(self, on: bool) -> None:
+    def _put_in(self) -> None:
         """The findings into the simulation, or out again: the arrows go where they belong, visibly."""
         from dataclasses import replace
 
         loaded = self._kept.loaded
         if loaded is None or loaded.diagnosis is None:
             return
+        on = not loaded.applied
         self._kept.loaded = replace(loaded, applied=on)
+        self._apply.label = self._pendant.t("compare.take_out" if on else "compare.apply")
         self._pendant.worker.animate("compare.morph", self._morph(1.0 if on else 0.0))
         before, after = loaded.diagnosis.before, loaded.diagnosis.after
         words = {"before": cards.measure(before.heldout_rms, before.unit)}
@@ -214,13 +217,14 @@ class _View:
         self._clear()
         self._kept.loaded = None
         self._pendant.stage.make_room(False)
+        self._pendant.stage.view("whole")
         for widget in (
             self._about, self._row, self._row_text, self._play, self._verdict, self._apply, self._bars,
             self._findings, self._next, self._plot_folder, self._looks, self._give_folder, self._close,
         ):  # fmt: skip
             widget.visible = False
         self._search.show(ready=False)
-        self._intro.visible = True
+        self._intro.visible = self._source_folder.visible = True
 
     # What is drawn ---------------------------------------------------------------------------------------
 

@@ -25,14 +25,18 @@ def driver_plot(curve: Curve) -> str:
         x_range=padded(curve.x, 0.03),
         y_range=padded(np.array([low, high]), 0.08, zero=True),
     )
+    searched = not np.array_equal(curve.before, curve.after)  # else there is only one state to show
     inside = [
         svg.dots(axes.x(curve.x[keep]), axes.y(curve.before[keep]), "dot before"),
-        svg.dots(axes.x(curve.x[keep]), axes.y(curve.after[keep]), "dot after"),
+        svg.dots(axes.x(curve.x[keep]), axes.y(curve.after[keep]), "dot after") if searched else "",
         svg.line(axes.x(curve.centres), axes.y(curve.mean_before), "halo"),
         svg.line(axes.x(curve.centres), axes.y(curve.mean_before), "mean before"),
-        svg.line(axes.x(curve.centres), axes.y(curve.mean_after), "halo"),
-        svg.line(axes.x(curve.centres), axes.y(curve.mean_after), "mean after"),
     ]
+    if searched:
+        inside += [
+            svg.line(axes.x(curve.centres), axes.y(curve.mean_after), "halo"),
+            svg.line(axes.x(curve.centres), axes.y(curve.mean_after), "mean after"),
+        ]
     clip, clipped = svg.clipped(axes.left, axes.top, axes.width, axes.height, inside)
     return svg.picture(
         WIDTH,

@@ -53,8 +53,19 @@ def row(pendant: Pendant, loaded: Loaded, index: int, share: float) -> str:
         words = pendant.t("compare.row_off", line=line, mm=f"{mm(off):.3f}")
         if not evidence.kept[index]:
             words += " " + pendant.t("compare.set_aside")
+    legend = "" if loaded.moving else _legend(pendant)
     return html.block(
-        f'<b>{escape(words)}</b><div style="opacity:.7">{escape(angles)}</div>', testid="compare-row"
+        f'<b>{escape(words)}</b><div style="opacity:.7">{escape(angles)}</div>{legend}', testid="compare-row"
+    )
+
+
+def _legend(pendant: Pendant) -> str:
+    """Which of the two tips is which."""
+    marks = (("#d97b16", "compare.legend_simulated"), ("#d62839", "compare.legend_recorded"))
+    return "".join(
+        f'<div><span style="display:inline-block;width:9px;height:9px;border-radius:50%;background:{colour};'
+        f'margin-right:6px"></span>{escape(pendant.t(key))}</div>'
+        for colour, key in marks
     )
 
 

@@ -19,7 +19,8 @@ _THIS = np.array([214, 40, 57])
 _GOOD, _BAD = np.array([47, 158, 68]), np.array([224, 49, 49])
 _MOST_ARROWS = 400
 _SHAFT, _HEAD, _HEAD_LENGTH = from_mm(2.0), from_mm(5.5), from_mm(15.0)
-_BALL = 0.05  # radius of a joint's load, as a share of the reach
+_FROM, _FAR = np.array([1.0, -0.8, 0.55]), 2.3  # the eye's direction, and its distance in radii
+_BALL = 0.075  # radius of a joint's load, as a share of the reach
 
 
 class Drawing:
@@ -116,6 +117,20 @@ class Drawing:
     def remove(self) -> None:
         """Takes everything away."""
         self._root.remove()
+
+
+def look_at(camera: viser.CameraHandle, loaded: Loaded) -> None:
+    """Turns the browser's eye so that the arm and every recorded point are seen."""
+    reach = float(loaded.robot.description.get("reach_m", loaded.robot.reach))
+    around = np.array([[0.0, 0.0, 0.0], [0.0, 0.0, 0.6 * reach]])
+    points = loaded.points
+    if points is not None and np.isfinite(points).any():
+        around = np.concatenate([around, points[np.isfinite(points).all(1)]])
+    low, high = around.min(0), around.max(0)
+    centre = (low + high) / 2.0
+    far = _FAR * max(float(np.linalg.norm(high - low)) / 2.0, reach / 2.0)
+    camera.position = tuple(centre + far * _FROM / np.linalg.norm(_FROM))
+    camera.look_at = tuple(centre)
 
 
 def _pointer(scene: viser.SceneApi, flange: str, tip: np.ndarray, colour: np.ndarray) -> None:

@@ -62,6 +62,15 @@ class Loaded:
         return np.nan_to_num((1.0 - share) * before + share * after)
 
     @property
+    def worst(self) -> int:
+        """Index of the row that is furthest off, outliers aside: where the difference is best seen."""
+        return (
+            0
+            if self.moving
+            else int(np.argmax(np.linalg.norm(self.vectors(0.0), axis=1) * self.evidence.kept))
+        )
+
+    @property
     def points(self) -> np.ndarray | None:
         """(m, 3) where the simulation puts the tool, in base [m]."""
         return self.evidence.points_predicted_before
