@@ -40,6 +40,8 @@ class Control:
     truth: str = ""
 
 
+NOTHING = ("shuffled", "response")
+
 TITLES = {
     "shuffled": "poses and measurements shuffled against each other",
     "flipped": "the effect with the sign that physics forbids",
@@ -139,3 +141,15 @@ def _response(rng: np.random.Generator, path: Path) -> tuple[str, str]:
 def named(said: Any) -> list[str]:
     """Effects that a diagnosis named."""
     return [f["effect"] for f in said.get("findings", ())]
+
+
+def came_out(control: Control, said: Any) -> bool:
+    """Did something come out that may not?
+
+    Where there is nothing at all (shuffled, response) any name counts. Where there is something that the
+    library does not hold (flipped, without) a name counts when the diagnosis stands by it; `partly`, with
+    its left-over structure, says that it does not.
+    """
+    if control.kind in NOTHING:
+        return bool(named(said))
+    return bool(named(said)) and said.get("verdict") == "named"

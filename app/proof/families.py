@@ -8,7 +8,8 @@ from pathlib import Path
 from typing import Any
 
 from app import catalog
-from app.proof import controls, drawing
+from app.proof import controls, controls_motion, drawing, drawing_motion
+from app.proof.generator.motion.cell import OUTSIDE as OUTSIDE_MOTION
 from app.proof.generator.static.cell import OUTSIDE
 
 
@@ -42,6 +43,14 @@ FAMILIES = {
         OUTSIDE,
         drawing.draw_static,
         controls.draw_control,
+        controls.TITLES,
+    ),
+    "motion": Family(
+        "motion",
+        drawing_motion.STRATA,
+        OUTSIDE_MOTION,
+        drawing_motion.draw_motion,
+        controls_motion.draw_control,
         controls.TITLES,
     ),
 }

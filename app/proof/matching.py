@@ -18,8 +18,9 @@ changes sign and that joint's zero, indentation along the tool and the tool's le
 
 Reported set. A truth is in the set when a finding, or any alternative listed with a finding, names it.
 
-Not scored as names: geometry (joint_zero, link_length, link_twist) where all of the arm's geometry is off, because it
-is true there; and effects that survive by less than `SURVIVES`, which are counted apart.
+Not scored as names: geometry (joint_zero, link_length, link_twist) where all of the arm's geometry is off,
+because it is true there, dry and viscous friction where every joint of the arm has some; and effects that survive
+by less than `SURVIVES`, which are counted apart.
 """
 
 from __future__ import annotations
@@ -35,6 +36,7 @@ SURVIVES = 1.5
 TELLABLE = 8.0
 
 GEOMETRIC = ("joint_zero", "link_length", "link_twist")
+FRICTION = ("coulomb_friction", "viscous_friction")
 APART = ("joint", "source_joint", "link", "axis", "body")
 
 Where = Mapping[str, Any]
@@ -90,9 +92,8 @@ def in_set(findings: Sequence[Mapping[str, Any]], truth: Mapping[str, Any]) -> b
 
 def counted(findings: Sequence[Mapping[str, Any]], answer: Mapping[str, Any]) -> list[Mapping[str, Any]]:
     """The findings that are held against, or for, the diagnosis."""
-    if not answer.get("clutter_mm"):
-        return list(findings)
-    return [f for f in findings if f["effect"] not in GEOMETRIC]
+    true = (*(GEOMETRIC if answer.get("clutter_mm") else ()), *(FRICTION if answer.get("friction") else ()))
+    return [f for f in findings if f["effect"] not in true]
 
 
 def _times_match(stated: Where, where: Where) -> bool:

@@ -14,7 +14,7 @@ from typing import Any
 from app import __version__
 from app.errors import InputError
 from app.proof.asking import ask, everywhere
-from app.proof.controls import named
+from app.proof.controls import came_out, named
 from app.proof.drawing import strata_of
 from app.proof.families import FAMILIES
 from app.proof.intervals import Rate
@@ -118,7 +118,7 @@ def _controls(family, seed, each, folder, say, workers):
             for c, s in pairs
             if named(s)
         ]
-        found[kind] = (Rate(len(wrong), len(pairs)), wrong)
+        found[kind] = (Rate(sum(came_out(c, s) for c, s in pairs), len(pairs)), wrong)
     return found
 
 

@@ -112,7 +112,12 @@ def si_factor(unit: str) -> float:
 def _heldout(answer: Answer, said: Said) -> float | None:
     """Held-out error of the final model over the noise that is really there."""
     after = said.get("after") or {}
-    if after.get("unit") != "mm" or not answer.get("noise_mm") or answer.get("outlier_rows"):
+    value, unit = after.get("heldout_rms"), after.get("unit")
+    if value is None or answer.get("outlier_rows"):
         return None
-    value = after.get("heldout_rms")
-    return None if value is None else value / answer["noise_mm"]
+    if unit == "mm" and answer.get("noise_mm"):
+        return value / answer["noise_mm"]
+    if unit == "Nm" and answer.get("noise_Nm"):
+        noise = answer["noise_Nm"]
+        return value / (sum(s * s for s in noise) / len(noise)) ** 0.5
+    return None

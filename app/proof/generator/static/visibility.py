@@ -46,12 +46,13 @@ class Projector:
         return columns - self.basis @ (self.basis.T @ columns)
 
 
-def visibility(made: Made, index: int, *, geometry: bool, limit: float) -> Visibility:
+def visibility(made: Made, index: int, *, geometry: bool, limit: float | None) -> Visibility:
     """Of the effect `index` of a recording, the other effects' strengths being open too.
 
     Args:
         geometry: all geometry is open, not only base, tool and targets.
-        limit: difference (length over noise) below which nobody can tell two explanations apart.
+        limit: difference (length over noise) below which nobody can tell two explanations apart;
+            None leaves the other laws out, which is quicker.
     """
     term = made.terms[index]
     others = [t for i, t in enumerate(made.terms) if i != index]
@@ -62,15 +63,27 @@ def visibility(made: Made, index: int, *, geometry: bool, limit: float) -> Visib
     project = Projector(np.hstack(columns))
     left = project(effect.ravel())
     norm = float(np.linalg.norm(left))
+    if limit is None:
+        return Visibility(norm / np.sqrt(left.size), norm, norm, ())
     gaps = [
-        {"effect": other.effect, "where": dict(other.where), "gap": gap}
+        {"effect": other.effect, "where": dict(other.where), "gap": gap, "free": len(other.parameters)}
         for other, gap in _gaps(made, others, project, left)
-        if not _same(other, term)
+        if not same_place(other, term)
     ]
-    # where nothing is left of the effect there is nothing to mistake for another
-    alike = tuple(g for g in gaps if g["gap"] < min(limit, 0.5 * norm))
     nearest = min((g["gap"] for g in gaps), default=norm)
-    return Visibility(norm / np.sqrt(left.size), norm, nearest, alike)
+    return Visibility(norm / np.sqrt(left.size), norm, nearest, alike(gaps, term, norm, limit))
+
+
+def alike(
+    gaps: Sequence[Mapping[str, Any]], term: Term, norm: float, limit: float
+) -> tuple[Mapping[str, Any], ...]:
+    """Laws that nobody can tell from the term.
+
+    Where nothing is left of the term there is nothing to mistake for another; and a law with more strengths
+    than the term has bends to anything: the simpler one is to be named.
+    """
+    free = len(term.parameters)
+    return tuple(g for g in gaps if g["gap"] < min(limit, 0.5 * norm) and g["free"] <= free)
 
 
 def _gaps(
@@ -83,7 +96,7 @@ def _gaps(
             row, gap = _best_row(made.cell.m, columns, project, left)
             yield replace(candidate, where={**candidate.where, "from_row": row}), gap
         else:
-            yield candidate, _gap(project(columns), left)
+            yield candidate, gap_of(project(columns), left)
 
 
 def _best_row(m: int, columns: np.ndarray, project: Projector, left: np.ndarray) -> tuple[int, float]:
@@ -92,13 +105,13 @@ def _best_row(m: int, columns: np.ndarray, project: Projector, left: np.ndarray)
     best, best_row = np.inf, 2
     for row in range(2, m + 1):
         masked = parts * (np.arange(1, m + 1) >= row)[:, None, None]
-        gap = _gap(project(masked.reshape(-1, columns.shape[1])), left)
+        gap = gap_of(project(masked.reshape(-1, columns.shape[1])), left)
         if gap < best:
             best, best_row = gap, row
     return best_row, float(best)
 
 
-def _gap(columns: np.ndarray, left: np.ndarray) -> float:
+def gap_of(columns: np.ndarray, left: np.ndarray) -> float:
     """Length of what the columns cannot explain of `left`."""
     length = np.linalg.norm(columns, axis=0)
     columns = columns[:, length > 1e-9] / length[length > 1e-9]
@@ -108,7 +121,7 @@ def _gap(columns: np.ndarray, left: np.ndarray) -> float:
     return float(np.linalg.norm(left - columns @ answer))
 
 
-def _same(a: Term, b: Term) -> bool:
+def same_place(a: Term, b: Term) -> bool:
     """The same law at the same place; a step's row does not count."""
     keys = (set(a.where) | set(b.where)) - {"from_row"}
     return a.effect == b.effect and all(a.where.get(k) == b.where.get(k) for k in keys)
