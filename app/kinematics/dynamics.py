@@ -37,10 +37,7 @@ def inverse_dynamics(
     Returns:
         (m, n) [Nm or N].
     """
-    model = robot.model
-    if not np.array_equal(gravity, GRAVITY):
-        model = pin.Model(model)
-        model.gravity.linear = np.asarray(gravity, float)
+    model = _under(robot, gravity)
     data = model.createData()
     out = np.empty(q.shape)
     for i, (a, b, c) in enumerate(zip(q, qd, qdd, strict=True)):
@@ -48,7 +45,9 @@ def inverse_dynamics(
     return out
 
 
-def torque_regressor(robot: RobotModel, q: np.ndarray, qd: np.ndarray, qdd: np.ndarray) -> np.ndarray:
+def torque_regressor(
+    robot: RobotModel, q: np.ndarray, qd: np.ndarray, qdd: np.ndarray, *, gravity: np.ndarray = GRAVITY
+) -> np.ndarray:
     """Y with Y @ inertial_parameters = torque.
 
     Args:
@@ -57,12 +56,22 @@ def torque_regressor(robot: RobotModel, q: np.ndarray, qd: np.ndarray, qdd: np.n
     Returns:
         (m, n, 10 n).
     """
-    model, data, regressor = robot.model, robot.model.createData(), pin.computeJointTorqueRegressor
+    model = _under(robot, gravity)
+    data, regressor = model.createData(), pin.computeJointTorqueRegressor
     m, n = q.shape
     out = np.empty((m, PER_LINK * n, n))  # pin keeps columns together: the copy is then one run of memory
     for i, (a, b, c) in enumerate(zip(q, qd, qdd, strict=True)):
         out[i] = regressor(model, data, a, b, c).T
     return np.swapaxes(out, 1, 2)
+
+
+def _under(robot: RobotModel, gravity: np.ndarray) -> pin.Model:
+    """The arm's model with gravity (3,) [m/s^2] in base."""
+    if np.array_equal(gravity, GRAVITY):
+        return robot.model
+    model = pin.Model(robot.model)
+    model.gravity.linear = np.asarray(gravity, float)
+    return model
 
 
 def flange_to_last_link(robot: RobotModel) -> np.ndarray:

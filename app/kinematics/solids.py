@@ -137,7 +137,8 @@ def stick_figure(robot: RobotModel) -> tuple[Shape, ...]:
     chain = robot.chain
     scale = max(robot.reach, 0.1)
     thick, dark = 0.035 * scale, (0.25, 0.27, 0.30)
-    shapes: list[Shape] = []
+    foot = chain.rotations[0] @ chain.axes[0] * thick
+    shapes = [rod(np.zeros(3), foot, 2.4 * thick, 2.0 * thick, link="base", colour=dark)]
     spans = [*chain.translations, chain.flange_translation]
     for body, span in enumerate(spans):
         if np.linalg.norm(span) > thick:
