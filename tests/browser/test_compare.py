@@ -1,5 +1,7 @@
 """The Compare screen as a person uses it: record in a cell with a hidden fault, find it, put it into the simulation."""
 
+import time
+
 import numpy as np
 import pytest
 
@@ -49,4 +51,72 @@ def test_a_hidden_fault_is_found_and_put_into_the_simulation(serve, sit_down):
     with person.page.expect_download() as waiting:
         person.click("Report")
     assert waiting.value.suggested_filename.endswith(".report.html")
+    assert not person.faults
+
+
+def log_file(folder, case):
+    """The hand-made log as a file."""
+    from app.recordings.columns import parse_column
+
+    evidence = case.evidence
+    n = evidence.q.shape[1]
+    names = ["t_s", *(f"q{j}_rad" for j in range(1, n + 1)), *(f"tau{j}_Nm" for j in range(1, n + 1))]
+    assert all(parse_column(name).known for name in names)
+    rows = np.column_stack([evidence.t, evidence.q, evidence.measured])
+    text = "\n".join([",".join(names), *(",".join(f"{v:.6f}" for v in row) for row in rows)])
+    (folder / "log.csv").write_text(f"# kind: motion\n# robot: ur10e\n{text}\n", encoding="utf-8")
+
+
+def test_a_log_plays_its_search_can_be_stopped_and_its_contact_is_marked(
+    serve, sit_down, tmp_path, monkeypatch
+):
+    """The engine is a stand-in here: what is held is the screen."""
+    from app.pendant.screens._compare import loaded as loading
+    from tests.diagnosis.report.cases import motion_case
+
+    case = motion_case()
+    log_file(tmp_path, case)
+    monkeypatch.chdir(tmp_path)
+    asked, patience = [], {"steps": 2000}
+
+    def slow(path, *, robot=None, progress=None):
+        asked.append(path)
+        for step in range(patience["steps"]):
+            progress(step / patience["steps"], f"step {step}")
+            time.sleep(0.01)
+        return case
+
+    monkeypatch.setattr(loading, "diagnose_file", slow)
+    person = sit_down(serve(robot="ur10e"))
+    kept = compare(person)
+    person.tab("Compare")
+    field = person.row("Or a path").locator("input")
+    field.fill("../elsewhere.csv")
+    field.press("Enter")
+    person.click("Load from the path")
+    person.until(lambda: any("below" in words for _, _, words in person.pendant.log), "the refusal")
+    field.fill("log.csv")
+    field.press("Enter")
+    person.click("Load from the path")
+    person.until(lambda: kept.loaded is not None, "the log")
+    person.at_rest()
+
+    person.click("Find what is missing")
+    person.until(lambda: asked, "the search")
+    person.click("Stop the search")
+    person.until(
+        lambda: any("stopped" in words for _, _, words in person.pendant.log), "the end of the search"
+    )
+    assert kept.loaded.diagnosis is None
+
+    patience["steps"] = 5
+    person.click("Find what is missing")
+    person.until(lambda: kept.loaded.diagnosis is not None, "the diagnosis")
+    person.at_rest()
+    assert "Contact" in person.seen("compare-finding-2")
+    assert person.page.get_by_test_id("compare-trace").locator(".window").count() > 0
+    person.click("Put it into the simulation")
+    person.click("Play")
+    person.until(lambda: person.pendant.worker.running("compare.play"), "the log to play")
+    person.picture("compare_log")
     assert not person.faults
