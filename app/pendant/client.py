@@ -44,7 +44,7 @@ class Pendant:
 
     def __init__(self, client: viser.ClientHandle, session: Session, world_of: Callable[[RobotModel], World]):
         self.client, self.session, self._world_of = client, session, world_of
-        self.language, self.dark, self.convention = FALLBACK, False, "ZYX"
+        self.language, self.vocabulary, self.dark, self.convention = FALLBACK, "", False, "ZYX"
         self.log: list[tuple[float, str, str]] = []
         self.open = True
         self.dragging = Dragging(self)
@@ -71,14 +71,14 @@ class Pendant:
         """Puts a job into the worker's queue, from any thread."""
         self.worker.post(job)
 
-    def clicked(self, button: Any, job: Callable[[], None]) -> None:
+    def clicked(self, button: Any, job: Job) -> None:
         """Runs `job` on the worker for each click."""
 
         @button.on_click
         async def _(event: viser.GuiEvent) -> None:
             self.worker.post(job)
 
-    def chosen(self, group: Any, job: Callable[[str], None]) -> None:
+    def chosen(self, group: Any, job: Callable[[str], object]) -> None:
         """Runs `job` on the worker with the button of the group that was clicked."""
 
         @group.on_click
@@ -86,7 +86,7 @@ class Pendant:
             value = event.target.value
             self.worker.post(lambda: job(value))
 
-    def changed(self, widget: Any, slot: str, job: Callable[[Any], None]) -> None:
+    def changed(self, widget: Any, slot: str, job: Callable[[Any], object]) -> None:
         """Runs `job` on the worker with the newest value somebody entered; what the program sets does not count."""
 
         @widget.on_update
@@ -185,6 +185,8 @@ class Pendant:
         self.client.gui.reset()
         self.client.scene.reset()
         self._build()
+        if self.log:
+            self.layout.message(*self.log[-1][1:])
 
     def solve(self, target: Pose, start: np.ndarray | None = None) -> IkResult:
         """Joints that bring the drawn tool to `target`, T_base_tool."""

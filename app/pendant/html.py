@@ -23,6 +23,12 @@ def paragraph(text: str, *, testid: str = "", faint: bool = False, style: str = 
     return block(escape(text), testid=testid, style=look + style)
 
 
+def instruction(title: str, words: str) -> str:
+    """What to do next, marked at its edge."""
+    inner = f'<div style="font-weight:600">{escape(title)}</div><div style="opacity:.8">{escape(words)}</div>'
+    return block(inner, testid="next", style="border-left:4px solid #d66014;margin:6px 10px;min-height:54px")
+
+
 def lamp(colour: str, size: int = 12) -> str:
     """A round lamp."""
     return (

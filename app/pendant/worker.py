@@ -12,7 +12,7 @@ from collections import deque
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
-Job = Callable[[], None]
+Job = Callable[[], object]
 
 #: Ticks a second of motions that run by themselves.
 TICK_HZ = 30.0

@@ -21,7 +21,9 @@ def solve(state: SessionState) -> Solved:
     points = recorded_points(state)
     orientation = orientation_of(state.mode)
     if orientation is None:
-        result = mode_named(state.mode).solve(points.captures)
+        known = state.tool.T_flange_tool.position if state.tool else None
+        options = {"known_tool": known} if any("known" in c.roles for c in points.captures) else {}
+        result = mode_named(state.mode).solve(points.captures, **options)
     else:
         result = calibrate(
             points.captures,

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from app.calibration.solving import solve_file
-from app.pendant.screens._paper import PAPER
+from app.pendant.screens._tool.paper import PAPER
 from app.units import mm
 
 pytestmark = [pytest.mark.browser, pytest.mark.xdist_group("browser")]

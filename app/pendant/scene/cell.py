@@ -27,7 +27,7 @@ def cell_shapes(world: World) -> tuple[Shape, ...]:
         box((_EDGE, _EDGE, _PLATE), (x, y, top - _PLATE / 2), link="table", colour=_TOP),
         rod(foot, foot + _up(from_mm(14.0)), _FOOT, link="spike foot", colour=_DARK),
         rod(foot, spike - _up(_CONE), _ROD, link="spike", colour=_DARK),
-        rod(spike - _up(_CONE), spike, _ROD, 0.0, link="spike tip", colour=_STEEL),
+        rod(spike - _up(_CONE), spike, _ROD, 0.0, link="spike", colour=_STEEL),
     ]
     reach = _EDGE / 2 - from_mm(35.0)
     for side in (-1, 1):

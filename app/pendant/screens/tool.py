@@ -2,120 +2,96 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-import numpy as np
-
-from app import catalog
-from app.calibration.captures import Capture, Step
+from app.calibration.captures import Step
 from app.calibration.tool import METHODS
 from app.pendant import html
-from app.pendant.screens._paper import calculate, play_paper_table, play_upload
-from app.pendant.screens._result import light_html, result_html
-from app.session import SessionState
-from app.session.actions import (
-    Accept,
-    Cancel,
-    ChooseMethod,
-    ChooseMode,
-    Delete,
-    Record,
-    Redo,
-    ReRecord,
-    Undo,
+from app.pendant.screens._tool.hand import (
+    AXES,
+    STROKE,
+    TOUCHED,
+    check_turn,
+    go_to_proposal,
+    help_along,
+    joints_of,
+    next_step,
 )
-from app.session.state import MODES, accepted, as_tuple, mode_named
-from app.units import from_mm, mm
+from app.pendant.screens._tool.paper import calculate, play_paper_table, play_upload
+from app.pendant.screens._tool.result import light_html, result_html
+from app.pendant.screens._tool.rows import Row
+from app.pendant.screens._tool.words import Words
+from app.session import SessionState
+from app.session.actions import Accept, Cancel, ChooseMethod, ChooseMode, Delete, Record, Redo, ReRecord, Undo
+from app.session.state import accepted, as_tuple, mode_named
+from app.units import mm
 
 if TYPE_CHECKING:
     from app.pendant.client import Pendant
-
-_STROKE = from_mm(150.0)
-_AXES = {"x": 0, "y": 1, "z": 2}
-
-
-class _Row:
-    """One point of the list."""
-
-    def __init__(self, view: _View, step: Step, number: int):
-        self._view, self._step, self._number = view, step, number
-        self._recorded: bool | None = None
-        self._group: Any = None
-        self._order = float(number)
-
-    def refresh(self, state: SessionState) -> None:
-        recorded = self._step.key in state.captures
-        if recorded == self._recorded:
-            return
-        self._recorded = recorded
-        t = self._view.pendant.t
-        if self._group is not None:
-            self._group.remove()
-        again = t("tool.re_record" if recorded else "tool.record")
-        jobs = {again: self._record}
-        if recorded:
-            jobs |= {t("tool.go"): self._go, t("tool.delete"): self._delete}
-        mark = "●" if recorded else "○"
-        with self._view.list_folder:
-            self._group = self._view.pendant.client.gui.add_button_group(
-                f"{mark} {self._step.title}", tuple(jobs), order=self._order
-            )
-        self._view.pendant.chosen(self._group, lambda label: jobs[label]())
-
-    def _record(self) -> None:
-        self._view.record(self._step)
-
-    def _go(self) -> None:
-        self._view.go_to(self._step)
-
-    def _delete(self) -> None:
-        pendant = self._view.pendant
-        pendant.do(Delete(self._step.key))
-        pendant.say("info", pendant.t("message.deleted", title=self._step.title))
-
-    def remove(self) -> None:
-        if self._group is not None:
-            self._group.remove()
 
 
 class _View:
     def __init__(self, pendant: Pendant):
         self.pendant = pendant
-        gui, t = pendant.client.gui, pendant.t
-        state = pendant.session.state
-        self._rows: list[_Row] = []
+        self._words = Words(pendant)
+        self._rows: list[Row] = []
         self._steps: tuple[Step, ...] = ()
-        self._modes = {mode.title: key for key, mode in catalog.members(MODES, "MODE").items()}
-        self._mode = gui.add_dropdown(
-            t("tool.mode"), tuple(self._modes), initial_value=mode_named(state.mode).title
-        )
-        pendant.changed(self._mode, "mode", self._choose_mode)
+        self._build_setup()
+        self._build_result()
+        self._build_list()
+
+    def _build_setup(self) -> None:
+        pendant, gui, t = self.pendant, self.pendant.client.gui, self.pendant.t
+        state = pendant.session.state
+        makers = self._words.makers()
+        chosen = next(title for title, key in makers.items() if key == pendant.vocabulary)
+        self._maker = gui.add_dropdown(t("tool.words"), tuple(makers), initial_value=chosen)
+        pendant.changed(self._maker, "maker", lambda title: self._speak(makers[title]))
+        self._modes = self._words.modes()
         mode = mode_named(state.mode)
-        self._touches = gui.add_number(
-            t("tool.touches"), state.touches, min=mode.least_touches, max=mode.most_touches, step=1
-        )
+        title = next(title for title, key in self._modes.items() if key == mode.key)
+        self._mode = gui.add_dropdown(t("tool.mode"), tuple(self._modes), initial_value=title)
+        pendant.changed(self._mode, "mode", self._choose_mode)
+        low, high = mode.least_touches, mode.most_touches
+        self._touches = gui.add_number(t("tool.touches"), state.touches, min=low, max=high, step=1)
         pendant.changed(self._touches, "touches", self._choose_touches)
-        self._methods = {t(f"tool.method_{key}") if key in _NAMED else key: key for key in METHODS}
-        self._method = gui.add_dropdown(
-            t("tool.method"), tuple(self._methods), initial_value=self._method_label(state.method)
-        )
-        pendant.changed(self._method, "method", self._choose_method)
+        named = {
+            "joint": "tool.method_joint",
+            "pairwise": "tool.method_pairwise",
+            "robust": "tool.method_robust",
+        }
+        self._methods = {t(named[key]) if key in named else key: key for key in METHODS}
+        label = self._method_label(state.method)
+        self._method = gui.add_dropdown(t("tool.method"), tuple(self._methods), initial_value=label)
+        pendant.changed(self._method, "method", lambda label: pendant.do(ChooseMethod(self._methods[label])))
         self._next = gui.add_html("")
-        self._assist = gui.add_button(t("tool.assist_none"), hint=t("tool.assist_hint"), color="gray")
+        self._assist = gui.add_button(t("tool.assist_touch"), hint=t("tool.assist_hint"), color="gray")
         pendant.clicked(self._assist, self._help)
+        self._propose = gui.add_button(t("tool.propose"), hint=t("tool.propose_hint"), color="gray")
+        pendant.clicked(self._propose, lambda: go_to_proposal(pendant))
+
+    def _build_result(self) -> None:
+        pendant, gui, t = self.pendant, self.pendant.client.gui, self.pendant.t
         self._result_folder = gui.add_folder(t("tool.result"), visible=False)
         with self._result_folder:
             self._light = gui.add_html("")
-            self._name = gui.add_text(t("tool.name"), t("tool.first_name", number=len(state.tools) + 1))
+            number = len(pendant.session.state.tools) + 1
+            self._name = gui.add_text(t("tool.name"), t("tool.first_name", number=number))
             self._decide = gui.add_button_group(t("tool.decide"), (t("tool.accept"), t("tool.cancel")))
-            self._again = gui.add_button(t("tool.again"), visible=False)
+            self._again = gui.add_button_group(
+                t("tool.then"), (t("tool.verify"), t("tool.again")), visible=False
+            )
             self._result = gui.add_html("")
-        pendant.clicked(self._again, self._cancel)
-        jobs = {t("tool.accept"): self._accept, t("tool.cancel"): self._cancel}
-        pendant.chosen(self._decide, lambda label: jobs[label]())
-        self.list_folder = gui.add_folder(t("tool.points"))
+        decide = {t("tool.accept"): self._accept, t("tool.cancel"): self._cancel}
+        pendant.chosen(self._decide, lambda label: decide[label]())
+        then = {t("tool.verify"): lambda: check_turn(pendant), t("tool.again"): self._cancel}
+        pendant.chosen(self._again, lambda label: then[label]())
+
+    def _build_list(self) -> None:
+        pendant, gui, t = self.pendant, self.pendant.client.gui, self.pendant.t
+        self._folder = gui.add_folder(t("tool.points"))
         self._calculate = gui.add_button(t("tool.calculate"))
-        pendant.clicked(self._calculate, self._solve)
+        pendant.clicked(self._calculate, lambda: calculate(pendant))
         history = gui.add_button_group(t("tool.history"), (t("tool.undo"), t("tool.redo")))
         steps = {t("tool.undo"): self._undo, t("tool.redo"): self._redo}
         pendant.chosen(history, lambda label: steps[label]())
@@ -131,10 +107,9 @@ class _View:
 
     # What somebody does ----------------------------------------------------------------------------------
 
-    def record(self, step: Step) -> None:
+    def _record(self, step: Step) -> None:
         pendant = self.pendant
-        state = pendant.session.state
-        action = ReRecord if step.key in state.captures else Record
+        action = ReRecord if step.key in pendant.session.state.captures else Record
         pendant.do(action(step.key, as_tuple(pendant.q)))
         far = pendant.world.distance(pendant.q)
         if "touch" in step.roles and far > pendant.world.contact_distance:
@@ -142,36 +117,19 @@ class _View:
         else:
             pendant.say("good", pendant.t("message.recorded", title=step.title))
 
-    def go_to(self, step: Step) -> None:
+    def _go(self, step: Step) -> None:
         pendant = self.pendant
-        q = joints_of(pendant, pendant.session.state.captures[step.key], pendant.q)
+        q = joints_of(pendant, pendant.session.state.captures[step.key])
         if q is not None:
             pendant.go(q, lambda: pendant.say("info", pendant.t("message.went", title=step.title)))
 
-    def _help(self) -> None:
-        """Does what a careful hand would do for the next point."""
-        pendant = self.pendant
-        state = pendant.session.state
-        step = state.missing[0] if state.missing else None
-        axis = step.role if step is not None and step.role in _AXES else None
-        origin = next((c for c in state.ordered if "origin" in c.roles), None)
-        if step is not None and axis is not None and origin is not None:
-            start = joints_of(pendant, origin, pendant.q)
-            if start is None:
-                return
-            found = pendant.world.stroke(start, _AXES[axis], _STROKE, pendant.rng)
-            words = pendant.t("message.stroked", mm=f"{mm(_STROKE):.0f}", axis=axis.upper(), title=step.title)
-        else:
-            found = pendant.world.touch(pendant.q, pendant.rng)
-            words = pendant.t("message.touched", title=step.title if step else "")
-        if not found.reached:
-            pendant.say("warning", pendant.t("message.not_reached", reason=pendant.why(found)))
-            return
-        pendant.go(found.q, lambda: pendant.say("info", words))
+    def _delete(self, step: Step) -> None:
+        self.pendant.do(Delete(step.key))
+        self.pendant.say("info", self.pendant.t("message.deleted", title=step.title))
 
-    def _solve(self) -> None:
-        pendant = self.pendant
-        calculate(pendant)
+    def _help(self) -> None:
+        step = next_step(self.pendant)
+        help_along(self.pendant, self._words.step(step).title if step else "")
 
     def _accept(self) -> None:
         pendant = self.pendant
@@ -183,6 +141,7 @@ class _View:
     def _cancel(self) -> None:
         self.pendant.do(Cancel())
         self.pendant.stage.view("whole")
+        self._name.value = self.pendant.t("tool.first_name", number=len(self.pendant.session.state.tools) + 1)
         self.pendant.say("info", self.pendant.t("message.cancelled"))
 
     def _undo(self) -> None:
@@ -193,26 +152,32 @@ class _View:
         self.pendant.do(Redo())
         self.pendant.say("info", self.pendant.t("message.redone"))
 
-    def _choose_mode(self, title: str) -> None:
+    def _speak(self, maker: str) -> None:
+        """A maker's words and angles, on the whole page."""
         pendant = self.pendant
-        state = pendant.do(ChooseMode(self._modes[title]))
-        pendant.say("info", pendant.t("message.mode", title=title, count=len(state.steps)))
+        pendant.vocabulary = maker
+        words = self._words.vocabulary
+        if words is not None:
+            pendant.convention = words.convention
+        pendant.rebuild()
+
+    def _choose_mode(self, title: str) -> None:
+        self._chosen(ChooseMode(self._modes[title]))
 
     def _choose_touches(self, value: float) -> None:
-        pendant = self.pendant
-        state = pendant.do(ChooseMode(pendant.session.state.mode, int(value)))
-        title = mode_named(state.mode).title
-        pendant.say("info", pendant.t("message.mode", title=title, count=len(state.steps)))
+        self._chosen(ChooseMode(self.pendant.session.state.mode, int(value)))
 
-    def _choose_method(self, label: str) -> None:
-        self.pendant.do(ChooseMethod(self._methods[label]))
+    def _chosen(self, action: ChooseMode) -> None:
+        pendant = self.pendant
+        state = pendant.do(action)
+        title = self._words.mode(mode_named(state.mode))
+        pendant.say("info", pendant.t("message.mode", title=title, count=len(state.steps)))
 
     # What is shown ---------------------------------------------------------------------------------------
 
     def refresh(self, state: SessionState) -> None:
-        t = self.pendant.t
         mode = mode_named(state.mode)
-        self._mode.value = mode.title
+        self._mode.value = next(title for title, key in self._modes.items() if key == mode.key)
         self._touches.min, self._touches.max = mode.least_touches, mode.most_touches
         self._touches.value = state.touches
         self._method.value = self._method_label(state.method)
@@ -220,39 +185,39 @@ class _View:
             for row in self._rows:
                 row.remove()
             self._steps = state.steps
-            self._rows = [_Row(self, step, number) for number, step in enumerate(state.steps)]
+            jobs = {"record": self._record, "go": self._go, "delete": self._delete}
+            self._rows = [
+                Row(self.pendant, self._folder, self._words.step(step), number, jobs)
+                for number, step in enumerate(state.steps)
+            ]
         for row in self._rows:
             row.refresh(state)
-        done = state.result is not None
+        done, taken = state.result is not None, accepted(state)
         self._result_folder.visible = done
-        self._mode.visible = self._touches.visible = self._method.visible = not done
-        self._next.visible = self._assist.visible = self._calculate.visible = not done
-        taken = accepted(state)
+        for widget in (self._maker, self._mode, self._touches, self._method, self._next, self._calculate):
+            widget.visible = not done
+        step = state.missing[0] if state.missing else None
+        touched = step is not None and bool(TOUCHED & set(step.roles))
+        self._assist.visible = not done and (touched or (step is not None and step.role in AXES))
+        self._propose.visible = not done and touched
         self._name.visible = self._decide.visible = not taken
         self._again.visible = taken
-        self._calculate.disabled = bool(state.missing)
+        self._calculate.disabled = step is not None
         if state.result is not None:
             self._light.content = light_html(state.result)
             self._result.content = result_html(self.pendant, state.result)
         else:
-            self._instruct(state)
-        if not state.missing:
-            self._assist.label = t("tool.assist_none")
+            self._instruct(step)
 
-    def _instruct(self, state: SessionState) -> None:
+    def _instruct(self, step: Step | None) -> None:
         t = self.pendant.t
-        if not state.missing:
-            self._next.content = html.paragraph(t("tool.ready"), testid="next")
+        if step is None:
+            self._next.content = html.instruction(t("tool.ready"), "")
             return
-        step = state.missing[0]
-        title = html.escape(t("tool.next", title=step.title))
-        self._next.content = html.block(
-            f'<div style="font-weight:600">{title}</div><div style="opacity:.8">{html.escape(step.instruction)}</div>',
-            testid="next",
-            style="border-left:4px solid #d66014;margin:6px 10px;min-height:54px",
-        )
-        if step.role in _AXES:
-            self._assist.label = t("tool.assist_stroke", mm=f"{mm(_STROKE):.0f}", axis=step.role.upper())
+        step = self._words.step(step)
+        self._next.content = html.instruction(t("tool.next", title=step.title), step.instruction)
+        if step.role in AXES:
+            self._assist.label = t("tool.assist_stroke", mm=f"{mm(STROKE):.0f}", axis=step.role.upper())
         else:
             self._assist.label = t("tool.assist_touch")
 
@@ -261,26 +226,6 @@ class _View:
 
     def close(self) -> None:
         pass
-
-
-_NAMED = ("joint", "pairwise", "robust")
-
-
-def joints_of(pendant: Pendant, capture: Capture, start: np.ndarray) -> np.ndarray | None:
-    """Joints of a recorded point; by inverse kinematics where only its pose is known, and None (said) without."""
-    if capture.q is not None:
-        return np.array(capture.q)
-    from app.kinematics import solve_ik
-
-    best = None
-    for q in (start, pendant.model.home):
-        found = solve_ik(pendant.model, capture.T_base_flange, q, max_steps=200)
-        if found.reached:
-            return found.q
-        best = found
-    if best is not None:
-        pendant.say("warning", pendant.t("message.not_reached", reason=pendant.why(best)))
-    return None
 
 
 class _Tool:

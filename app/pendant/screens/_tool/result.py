@@ -10,6 +10,7 @@ from app.calibration.solving import Solved
 from app.geometry import CONVENTIONS
 from app.pendant import html
 from app.pendant.scene.residuals import magnification
+from app.pendant.screens._tool.words import Words
 from app.units import deg, mm
 
 if TYPE_CHECKING:
@@ -69,9 +70,14 @@ def _figures(pendant: Pendant, solved: Solved) -> str:
     if not len(result.residual_vectors):
         return ""
     length = lambda value: t("result.mm", value=f"{mm(value):.3f}")  # noqa: E731
+    mean, largest = t("result.mean"), t("result.max", touch=result.worst + 1)
+    maker = Words(pendant).vocabulary
+    if maker is not None:  # the makers' two figures under the makers' names
+        words = maker.words.get(pendant.language, maker.words["en"])
+        mean, largest = f"{words.mean} ({maker.title})", f"{words.max} ({result.worst + 1})"
     rows = [
-        (t("result.mean"), length(result.mean)),
-        (t("result.max", touch=result.worst + 1), length(result.max)),
+        (mean, length(result.mean)),
+        (largest, length(result.max)),
         (t("result.noise"), length(result.sigma) if result.dof > 0 else "?"),
         (t("result.delta"), t("result.mm", value=f"{mm(result.delta):.5f}")),
         (t("result.condition"), f"{result.condition:.2f}"),

@@ -1,0 +1,60 @@
+"""Modes and steps in a maker's words and the operator's language."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from app.calibration.captures import Mode, Step
+from app.calibration.modes import modes
+from app.calibration.vocabularies import Vocabulary, vocabularies, vocabulary
+
+if TYPE_CHECKING:
+    from app.pendant.client import Pendant
+
+#: Whose words a language uses where nobody chose a maker's.
+_OWN = {"zh": "paper"}
+
+
+class Words:
+    """What things are called.
+
+    Args:
+        pendant: whose language and chosen maker count.
+    """
+
+    def __init__(self, pendant: Pendant):
+        self._pendant = pendant
+
+    @property
+    def vocabulary(self) -> Vocabulary | None:
+        """The maker chosen; None for the modes' own words."""
+        key = self._pendant.vocabulary or _OWN.get(self._pendant.language)
+        return vocabulary(key) if key else None
+
+    def makers(self) -> dict[str, str]:
+        """Title -> key; an empty key is the modes' own words."""
+        return {self._pendant.t("tool.own_words"): ""} | {v.title: k for k, v in vocabularies().items()}
+
+    def modes(self) -> dict[str, str]:
+        """Title -> key of the modes the wizard can walk through, those the maker has a name for first."""
+        words = self.vocabulary
+        first = words.modes if words else ()
+        walkable = {key: mode for key, mode in modes().items() if mode.default_touches > 0}
+        ordered = [k for k in first if k in walkable] + [k for k in walkable if k not in first]
+        found: dict[str, str] = {}
+        for key in ordered:
+            title = self.mode(walkable[key])
+            if title in found:  # two modes under one name of the maker's: say which
+                title = f"{title} ({walkable[key].title})"
+            found[title] = key
+        return found
+
+    def mode(self, mode: Mode) -> str:
+        """A mode's name."""
+        words = self.vocabulary
+        return words.mode_title(mode.key, mode.title, self._pendant.language) if words else mode.title
+
+    def step(self, step: Step) -> Step:
+        """A step with its title and instruction restated."""
+        words = self.vocabulary
+        return words.step(step, self._pendant.language) if words else step
