@@ -80,7 +80,7 @@ class Chain:
         """
         q = np.atleast_2d(np.asarray(q, float))
         m, n = q.shape
-        rotation = np.broadcast_to(np.eye(3), (m, 3, 3))
+        rotation = np.tile(np.eye(3), (m, 1, 1))
         position = np.zeros((m, 3))
         joint_rotations, joint_positions = np.empty((m, n, 3, 3)), np.empty((m, n, 3))
         axes = np.empty((m, n, 3))
@@ -88,8 +88,8 @@ class Chain:
             last = j == n
             placement_r = self.flange_rotation if last else self.rotations[j]
             placement_p = self.flange_translation if last else self.translations[j]
-            position = position + rotation @ placement_p
-            rotation = rotation @ placement_r
+            position = position + _times(rotation, placement_p)
+            rotation = _times(rotation, placement_r)
             if shifts is not None:
                 position = position + (rotation @ shifts[..., j, :, None])[..., 0]
             if turns is not None:
@@ -98,13 +98,14 @@ class Chain:
                 break
             joint_rotations[:, j], joint_positions[:, j] = rotation, position
             axis = self.axes[j]
-            axes[:, j] = rotation @ axis
+            axes[:, j] = _times(rotation, axis)
             if self.prismatic[j]:
                 position = position + axes[:, j] * q[:, j, None]
-            else:
-                k = skew(axis)
+            else:  # R exp(q [axis]x), with Rodrigues' formula multiplied out
+                once = _times(rotation, skew(axis))
+                twice = _times(once, skew(axis))
                 s, c = np.sin(q[:, j])[:, None, None], np.cos(q[:, j])[:, None, None]
-                rotation = rotation @ (np.eye(3) + s * k + (1.0 - c) * (k @ k))
+                rotation = rotation + s * once + (1.0 - c) * twice
         return Frames(joint_rotations, joint_positions, axes, rotation, position)
 
     def jacobian_columns(self, frames: Frames, points: np.ndarray) -> np.ndarray:
@@ -120,3 +121,8 @@ class Chain:
         turning = np.cross(frames.axes, arm)
         columns = np.where(self.prismatic[None, :, None], frames.axes, turning)
         return np.swapaxes(columns, 1, 2)
+
+
+def _times(matrices: np.ndarray, fixed: np.ndarray) -> np.ndarray:
+    """(m, 3, 3) times one fixed (3, 3) or (3,), as one tall product: numpy's stacked one is far slower."""
+    return (matrices.reshape(-1, 3) @ fixed).reshape(len(matrices), *((3,) * fixed.ndim))
