@@ -47,14 +47,14 @@ class _View:
         self._apply = gui.add_button(t("compare.apply"), visible=False, hint=t("compare.apply_hint"))
         pendant.clicked(self._apply, self._put_in)
         self._bars = gui.add_html("", visible=False)
-        self._findings = gui.add_html("", visible=False)
-        self._next = gui.add_checkbox(t("compare.next"), False, visible=False, hint=t("compare.next_hint"))
-        pendant.changed(self._next, "compare.next", lambda on: self._show_next(on))
         self._plot_folder = gui.add_folder(t("compare.plots"), visible=False)
         with self._plot_folder:
             self._driver: Any = gui.add_dropdown(t("compare.against"), ("-",))
             pendant.changed(self._driver, "compare.driver", lambda _: self._plot())
             self._plot_html = gui.add_html("")
+        self._findings = gui.add_html("", visible=False)
+        self._next = gui.add_checkbox(t("compare.next"), False, visible=False, hint=t("compare.next_hint"))
+        pendant.changed(self._next, "compare.next", lambda on: self._show_next(on))
         self._looks = gui.add_folder(t("compare.looks"), visible=False, expand_by_default=False)
         with self._looks:
             self._factor = gui.add_dropdown(t("compare.factor"), tuple(f"× {f}" for f in _FACTORS))
@@ -143,7 +143,7 @@ class _View:
             self._curves = {c.driver: c for c in driver_curves(_as_shown(loaded), loaded.robot, most=12)}
             names = tuple(self._curves) or ("-",)
         self._driver.options = names
-        self._driver.value = names[0]
+        self._driver.value = names[loaded.telling_joint if loaded.moving else 0]
         self._plot()
 
     # What somebody does ----------------------------------------------------------------------------------

@@ -19,8 +19,10 @@ _THIS = np.array([214, 40, 57])
 _GOOD, _BAD = np.array([47, 158, 68]), np.array([224, 49, 49])
 _MOST_ARROWS = 400
 _SHAFT, _HEAD, _HEAD_LENGTH = from_mm(2.0), from_mm(5.5), from_mm(15.0)
+_POSES_SEEN = 300
 _FROM, _FAR = np.array([1.0, -0.8, 0.55]), 2.3  # the eye's direction, and its distance in radii
-_BALL = 0.075  # radius of a joint's load, as a share of the reach
+_NOISE_IS_GREEN = 4.0
+_RING, _TUBE = 0.085, 0.013  # of a joint's ring, as shares of the reach
 
 
 class Drawing:
@@ -44,7 +46,7 @@ class Drawing:
                 _pointer(scene, arm.flange_path, self._tip, colour)
         self._arrows: viser.ArrowsHandle | None = None
         self._label: viser.LabelHandle | None = None
-        self._balls = _balls(scene, self._arm, loaded.robot) if loaded.moving else []
+        self._rings = _rings(scene, loaded.robot) if loaded.moving else []
         self._load_scale = _load_scale(loaded)
         self._next: list[ArmView] = []
 
@@ -57,8 +59,8 @@ class Drawing:
         loaded = self._loaded
         q = loaded.evidence.q[index]
         self._arm.set(q)
-        for k, ball in enumerate(self._balls):
-            ball.color = _load_colour(loaded, index, k, share, self._load_scale[k])
+        for k, ring in enumerate(self._rings):
+            ring.color = _load_colour(loaded, index, k, share, self._load_scale[k])
         if self._ghost is None or loaded.points is None or self._tip is None:
             return
         shift = loaded.vectors(share)[index]
@@ -122,7 +124,11 @@ class Drawing:
 def look_at(camera: viser.CameraHandle, loaded: Loaded) -> None:
     """Turns the browser's eye so that the arm and every recorded point are seen."""
     reach = float(loaded.robot.description.get("reach_m", loaded.robot.reach))
-    around = np.array([[0.0, 0.0, 0.0], [0.0, 0.0, 0.6 * reach]])
+    q = loaded.evidence.q[np.linspace(0, loaded.count - 1, min(loaded.count, _POSES_SEEN)).astype(int)]
+    frames = loaded.robot.chain.frames(q)
+    around = np.concatenate(
+        [np.zeros((1, 3)), frames.joint_positions.reshape(-1, 3), frames.flange_positions]
+    )
     points = loaded.points
     if points is not None and np.isfinite(points).any():
         around = np.concatenate([around, points[np.isfinite(points).all(1)]])
@@ -151,25 +157,50 @@ def _pointer(scene: viser.SceneApi, flange: str, tip: np.ndarray, colour: np.nda
     )
 
 
-def _balls(scene: viser.SceneApi, arm: ArmView, robot: RobotModel) -> list:
-    """A ball on every joint of the arm, coloured by its residual."""
-    paths, path = [], f"{ROOT}/arm"
+def _rings(scene: viser.SceneApi, robot: RobotModel) -> list:
+    """A ring around every joint's axis, coloured by its residual."""
+    reach = float(robot.description.get("reach_m", robot.reach))
+    rings, path = [], f"{ROOT}/arm"
     for k in range(robot.joint_count):
         path = f"{path}/joint{k + 1}"
-        paths.append(path)
-    radius = _BALL * float(robot.description.get("reach_m", robot.reach))
-    return [
-        scene.add_icosphere(f"{p}/load", radius=radius, opacity=0.75, subdivisions=2, cast_shadow=False)
-        for p in paths
-    ]
+        vertices, triangles = _torus(robot.chain.axes[k], _RING * reach, _TUBE * reach)
+        rings.append(
+            scene.add_mesh_simple(
+                f"{path}/load", vertices, triangles, color=_GOOD, cast_shadow=False, receive_shadow=False
+            )
+        )
+    return rings
+
+
+def _torus(axis: np.ndarray, radius: float, tube: float) -> tuple[np.ndarray, np.ndarray]:
+    """Vertices (v, 3) and triangles (f, 3) of a ring around an axis through the origin."""
+    around, across = 40, 10
+    u, v = np.meshgrid(
+        np.linspace(0, 2 * np.pi, around, endpoint=False),
+        np.linspace(0, 2 * np.pi, across, endpoint=False),
+        indexing="ij",
+    )
+    flat = np.linalg.svd(axis[None])[2][1:]  # two directions square to the axis
+    out = np.cos(u)[..., None] * flat[0] + np.sin(u)[..., None] * flat[1]
+    vertices = out * (radius + tube * np.cos(v))[..., None] + np.sin(v)[..., None] * tube * axis
+    i, j = np.meshgrid(np.arange(around), np.arange(across), indexing="ij")
+    here, right = i * across + j, (i + 1) % around * across + j
+    up, over = i * across + (j + 1) % across, (i + 1) % around * across + (j + 1) % across
+    triangles = np.stack([here, right, over, here, over, up], axis=-1).reshape(-1, 3)
+    if np.linalg.det(np.stack([*flat, axis])) < 0:  # outside stays outside
+        triangles = triangles[:, ::-1]
+    return vertices.reshape(-1, 3).astype(np.float32), triangles.astype(np.uint32)
 
 
 def _load_scale(loaded: Loaded) -> np.ndarray:
-    """(n,) torque error that counts as fully red: what one in twenty samples exceeded before [Nm]."""
-    before = np.abs(np.nan_to_num(loaded.evidence.before))
+    """(n,) torque error that counts as fully red [Nm]: what one in twenty samples exceeded before, and well above
+    what is left after, so that a joint with nothing but noise stays green.
+    """
     if not loaded.moving:
         return np.ones(loaded.robot.joint_count)
-    return np.maximum(np.quantile(before, 0.95, axis=0), 1e-9)
+    before, after = (np.nan_to_num(r) for r in (loaded.evidence.before, loaded.evidence.after))
+    noise = np.sqrt(np.mean(after**2, axis=0))
+    return np.maximum(np.maximum(np.quantile(np.abs(before), 0.95, axis=0), _NOISE_IS_GREEN * noise), 1e-9)
 
 
 def _load_colour(loaded: Loaded, index: int, joint: int, share: float, scale: float) -> tuple[int, int, int]:

@@ -71,6 +71,12 @@ class Loaded:
         )
 
     @property
+    def telling_joint(self) -> int:
+        """Index of the joint whose torque error fell most, or of the first before anybody searched."""
+        before, after = (np.nan_to_num(r) for r in (self.evidence.before, self.evidence.after))
+        return int(np.argmax(np.sum(before**2 - after**2, axis=0)))
+
+    @property
     def points(self) -> np.ndarray | None:
         """(m, 3) where the simulation puts the tool, in base [m]."""
         return self.evidence.points_predicted_before
