@@ -12,6 +12,7 @@
     checks/         one file a thing that can go wrong, with the advice
     next_touch/     where to touch next, and what it would bring
     verify.py       turns about the accepted tool point
+    report/         one sheet of paper
     exchange/       one file a format that tool frames travel in
     base/           base frames by tracker
 

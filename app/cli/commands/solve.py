@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 from dataclasses import dataclass
+from datetime import datetime
 from pathlib import Path
 from typing import Annotated, Literal
 
@@ -29,15 +30,21 @@ class Command:
     json: bool = False
     """The object teachframe.tool/1 instead of the page."""
 
+    report: Path | None = None
+    """Writes a one-page report (HTML, prints well) of the one file given."""
+
     def run(self) -> int:
         import msgspec
 
+        from app.calibration.report import report
         from app.calibration.solving import solve_file, to_json
         from app.calibration.text import page
         from app.errors import InputError, TeachframeError
 
         if not self.files:
             raise InputError("no points file given", expected="teachframe solve FILE…")
+        if self.report is not None and len(self.files) != 1:
+            raise InputError("a report is of one file", column="--report", expected="one FILE")
         code = 0
         for number, path in enumerate(self.files):
             try:
@@ -48,8 +55,19 @@ class Command:
                 print(f"teachframe solve: {error}", file=sys.stderr, flush=True)
                 code = 2
                 continue
+            if self.report is not None:
+                _write(self.report, report(solved, made=datetime.now().strftime("%Y-%m-%d %H:%M")))
             if self.json:
                 print(msgspec.json.encode(to_json(solved.result)).decode(), flush=True)
             else:
                 print(("\n" + "=" * 100 + "\n\n" if number else "") + page(solved), flush=True)
         return code
+
+
+def _write(path: Path, text: str) -> None:
+    from app.errors import FileFormatError
+
+    try:
+        path.write_text(text, encoding="utf-8")
+    except OSError as error:
+        raise FileFormatError(f"cannot be written ({error.strerror})", file=path) from None
