@@ -19,6 +19,8 @@ MOST = 6
 def alternatives_of(study: Study, index: int) -> tuple[Alternative, ...]:
     """Other effects in the place of term `index`, the rest of the model kept."""
     term = study.fit.terms[index]
+    if index in study.done:  # the samples were corrected for it: nothing of it is left to explain
+        return ()
     others = [t.group for i, t in enumerate(study.fit.terms) if i != index]
     solution = solve(study.system, others, study.prior)
     board = study.search.board(solution, others)

@@ -21,6 +21,7 @@ from app.diagnosis.motion.search import Search, Term
 from app.diagnosis.motion.system import Group, System
 from app.diagnosis.result import Diagnosis, Progress
 from app.kinematics import RobotModel
+from app.kinematics.robot import GRAVITY
 from app.recordings import Table
 
 MOST_ROUNDS = 4
@@ -32,6 +33,7 @@ class Corrections:
 
     delay: float
     scale: np.ndarray  # (n,) recorded = (1 + scale) * true
+    gravity: np.ndarray  # (3,) m/s^2
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,6 +49,7 @@ class Study:
     fit: ExactFit
     judgement: Judgement
     search: Search
+    done: dict[int, np.ndarray]
     before_residual: np.ndarray
     before_heldout: float
 
@@ -86,7 +89,7 @@ def diagnose(
 def examine(log: Log, robot: RobotModel, tell: Progress, seed: int) -> Study:
     """Search, exact refit and judgement of one log."""
     motion = motion_of(log)
-    corrections = Corrections(0.0, np.zeros(robot.joint_count))
+    corrections = Corrections(0.0, np.zeros(robot.joint_count), GRAVITY.copy())
     factor = prior_factor(robot)
     samples = take_samples(log, robot, motion, log.y, tell)
     terms: list[Term] = []
@@ -99,11 +102,11 @@ def examine(log: Log, robot: RobotModel, tell: Progress, seed: int) -> Study:
         if before is None:
             bare = ErrorTable(system, prior, [], samples.y)
             before = (bare.residual([]), bare.heldout([]))
-        start = carried(system, groups, terms)
+        start, stay = carried(system, groups, terms)
         known = {_event(t) for t in start}
-        terms = search.forward(tell, start)
+        terms = search.exchange(search.forward(tell, start, stay), stay)
         fit = exact_fit(system, prior, terms)
-        kept = search.backward(fit.terms)
+        kept = search.backward(fit.terms, stay)
         if len(kept) < len(fit.terms):
             fit = exact_fit(system, prior, kept)
         terms = fit.terms
@@ -114,25 +117,46 @@ def examine(log: Log, robot: RobotModel, tell: Progress, seed: int) -> Study:
         if new is not None:
             corrections = new
             torque = log.y / (1.0 + corrections.scale)
-            samples = take_samples(log, robot, motion, torque, tell, shift=corrections.delay)
+            samples = take_samples(
+                log, robot, motion, torque, tell, shift=corrections.delay, gravity=corrections.gravity
+            )
     tell(0.85, "names")
-    judgement = judge(search, fit)
-    return Study(log, samples, system, prior, scale, corrections, fit, judgement, search, *before)
+    stated = None if log.stated_noise is None else log.stated_noise / np.sqrt(samples.window)
+    done = corrected_by(corrections, fit)
+    judgement = judge(search, fit, stated, done)
+    return Study(log, samples, system, prior, scale, corrections, fit, judgement, search, done, *before)
 
 
-def carried(system: System, groups: list[Group], terms: list[Term]) -> list[Term]:
-    """Terms that stay from round to round: events, and what the samples were corrected for."""
-    out = []
+def carried(system: System, groups: list[Group], terms: list[Term]) -> tuple[list[Term], int]:
+    """Terms of the last round for this one, and how many of them stay whatever comes.
+
+    Those that the samples were corrected for stand first and stay: what remains of them is nothing now.
+    """
+    stay, rest = [], []
     for term in terms:
         law = term.group.law
         assert law is not None
-        if law.follows_model:
+        if law.corrected:
             same = [g for g in groups if g.law is law and dict(g.where) == dict(term.group.where)]
-            out += [replace(term, group=g) for g in same]
-        elif law.windowed:
-            columns = law.columns(system.samples.state, term.group.where, term.group.shape)
-            group = replace(term.group, size=columns.shape[-1], bent=False)
-            out.append(replace(term, group=system.append(group, system.samples.pool(columns))))
+            stay += [replace(term, group=g) for g in same]
+            continue
+        columns = system.samples.pool(law.columns(system.samples.state, term.group.where, term.group.shape))
+        group = replace(term.group, size=columns.shape[-1], bent=False)
+        rest.append(replace(term, group=system.append(group, columns)))
+    return stay + rest, len(stay)
+
+
+def corrected_by(corrections: Corrections, fit: ExactFit) -> dict[int, np.ndarray]:
+    """Term -> what the samples were corrected by, in the term's columns."""
+    out: dict[int, np.ndarray] = {}
+    for i, term in enumerate(fit.terms):
+        if term.group.label == "delay":
+            out[i] = np.array([corrections.delay])
+        elif term.group.label == "torque_constant" and term.group.joint is not None:
+            scale = corrections.scale[term.group.joint]
+            out[i] = np.array([scale / (1 + scale)])
+        elif term.group.label == "gravity_direction":
+            out[i] = corrections.gravity - GRAVITY
     return out
 
 
@@ -194,15 +218,20 @@ def _prior_scale(system: System, factor: np.ndarray) -> float:
 
 def _corrections(old: Corrections, fit: ExactFit) -> Corrections | None:
     """The next correction, or None where nothing moves any more."""
-    delay, scale, moved = old.delay, old.scale.copy(), False
-    for term, values in zip(fit.terms, fit.values, strict=True):
-        key = term.group.law.key if term.group.law else ""
+    delay, scale, gravity, moved = old.delay, old.scale.copy(), old.gravity.copy(), False
+    for term, values, covariance in zip(fit.terms, fit.values, fit.covariances, strict=True):
+        key = term.group.label
+        std = np.sqrt(np.maximum(np.diag(covariance), 0.0))
         if key == "delay":
             delay += values["delay"]
-            moved |= abs(values["delay"]) > 1e-5
-        if key == "torque_constant" and term.group.joint is not None:
+            moved |= abs(values["delay"]) > 0.1 * std[0]
+        elif key == "torque_constant" and term.group.joint is not None:
             j = term.group.joint
             step = float(np.clip(values["scale"], -0.5, 2.0))
             scale[j] = (1 + scale[j]) * (1 + step) - 1
-            moved |= abs(step) > 1e-4
-    return Corrections(delay, scale) if moved else None
+            moved |= abs(step) > 0.1 * std[0]
+        elif key == "gravity_direction":
+            step = np.array([values[k] for k in ("gx", "gy", "gz")]) - GRAVITY
+            gravity = gravity + step
+            moved |= bool(np.any(np.abs(step) > 0.1 * std))
+    return Corrections(delay, scale, gravity) if moved else None

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from types import MappingProxyType
+
 import numpy as np
 
 from app.diagnosis.motion.heldout import FOLDS, folds
@@ -15,10 +18,18 @@ class ErrorTable:
     Fold sums are assembled once; leaving a term out is leaving out its rows and columns.
     """
 
-    def __init__(self, system: System, prior: np.ndarray, selected: list[Group], response: np.ndarray):
+    def __init__(
+        self,
+        system: System,
+        prior: np.ndarray,
+        selected: list[Group],
+        response: np.ndarray,
+        done: Mapping[int, np.ndarray] = MappingProxyType({}),
+    ):
         """Args:
         prior: information on the leading unknowns.
         response: (M, n) what the linear model is fitted to [Nm].
+        done: term -> what the response was corrected by, in the term's columns; put back here.
         """
         self.system, self.prior, self.selected, self.response = system, prior, selected, response
         self.all = system.normal(selected)[:2]
@@ -26,7 +37,23 @@ class ErrorTable:
         self.folds = [(blocks, *system.normal(selected, blocks)[:2]) for blocks in every]
         self.raw = raw_columns(system, selected)
         _, self.positions, _ = system.layout(selected)
+        self._put_back(done)
         self._memory: dict[tuple[int, ...], float] = {}
+
+    def _put_back(self, done: Mapping[int, np.ndarray]) -> None:
+        _, _, size = self.system.layout(self.selected)
+        back, at = np.zeros(size), size - sum(g.size for g in self.selected)
+        for i, group in enumerate(self.selected):
+            if i in done:
+                back[at : at + group.size] = done[i]
+            at += group.size
+        if not back.any():
+            return
+        self.all = (self.all[0], self.all[1] + self.all[0] @ back)
+        self.folds = [(blocks, A, g + A @ back) for blocks, A, g in self.folds]
+        self.response = self.response.copy()
+        for j, (columns, pos) in enumerate(zip(self.raw, self.positions, strict=True)):
+            self.response[:, j] += columns @ back[pos]
 
     def _keep(self, terms: list[int]) -> np.ndarray:
         nuisance = len(self.all[1]) - sum(g.size for g in self.selected)
@@ -41,9 +68,10 @@ class ErrorTable:
         part = A[np.ix_(keep, keep)].copy()
         i = len(self.prior)
         part[:i, :i] += self.prior
-        scale = np.sqrt(np.maximum(np.diag(part), 1e-30))
+        scale = np.sqrt(np.diag(part))
+        scale[scale <= 1e-9 * scale.max()] = np.inf  # what this log does not excite stays zero
         part = part / scale / scale[:, None]
-        part[np.diag_indices_from(part)] += 1e-11
+        part[np.diag_indices_from(part)] += np.where(np.isinf(scale), 1.0, 1e-11)
         out = np.zeros(len(g))
         out[keep] = np.linalg.solve(part, g[keep] / scale) / scale
         return out

@@ -11,6 +11,7 @@ from app.diagnosis.motion.alternatives import alternatives_of
 from app.diagnosis.motion.errors import ErrorTable
 from app.diagnosis.result import Diagnosis, Evidence, Finding, Leftover, Noise, Parameter, Quality
 from app.kinematics import RobotModel
+from app.kinematics.robot import GRAVITY
 
 if TYPE_CHECKING:
     from app.diagnosis.motion.engine import Study
@@ -19,7 +20,9 @@ if TYPE_CHECKING:
 def build(study: Study, robot: RobotModel, file: str) -> Diagnosis:
     """Everything said of one log."""
     fit, judgement, samples = study.fit, study.judgement, study.samples
-    table = ErrorTable(study.system, study.prior, [t.group for t in fit.terms], samples.y - fit.offset)
+    table = ErrorTable(
+        study.system, study.prior, [t.group for t in fit.terms], samples.y - fit.offset, study.done
+    )
     named = [i for i, good in enumerate(judgement.named) if good]
     inflation = _inflation(study)
     findings = [_finding(study, table, i, named, inflation) for i in named]
@@ -83,6 +86,9 @@ def _finding(study: Study, table: ErrorTable, index: int, named: list[int], infl
     std = std * (inflation[group.joint] if group.joint is not None else float(np.max(inflation)))
     if law.key == "delay":
         values["delay"] += study.corrections.delay
+    if law.key == "gravity_direction":
+        done = study.corrections.gravity - GRAVITY
+        values = {k: v + d for (k, v), d in zip(values.items(), done, strict=True)}
     if law.key == "torque_constant" and group.joint is not None:
         done = study.corrections.scale[group.joint]
         values["scale"] = (1 + done) * (1 + values["scale"]) - 1

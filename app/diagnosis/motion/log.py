@@ -70,12 +70,14 @@ def read_log(table: Table, robot: RobotModel) -> Log:
         )
     table.require(["t", *[f"q{j}" for j in joints]])
     notes: list[str] = []
+    order = joint_order(table, robot, notes)
     t = table.tolerant("t")
-    q = np.stack([table.tolerant(f"q{j}") for j in joints], axis=1)
+    q = np.stack([table.tolerant(f"q{j}") for j in joints], axis=1)[:, order]
     y, current = _torques(table, n, notes)
+    y = y[:, order]
     qd = temperature = commanded = None
     if table.has(*[f"qd{j}" for j in joints]):
-        qd = np.stack([table.tolerant(f"qd{j}") for j in joints], axis=1)
+        qd = np.stack([table.tolerant(f"qd{j}") for j in joints], axis=1)[:, order]
     elif any(table.has(f"qd{j}") for j in joints):
         notes.append("recorded speed is there for some joints only and was not used")
     if table.has(*[f"temperature{j}" for j in joints]):
@@ -91,12 +93,12 @@ def read_log(table: Table, robot: RobotModel) -> Log:
     if qd is not None:
         good &= np.isfinite(qd).all(1)
     _refuse_if_few(good, rows, table, "broken", t, q, y)
-    order = np.flatnonzero(good)
-    back = backwards_rows(t[order], rows[order], table)
-    good[order[back]] = False
-    order = np.flatnonzero(good)
-    wild = spikes(t[order], q[order], qd[order] if qd is not None else None, y[order], robot)
-    good[order[wild]] = False
+    left = np.flatnonzero(good)
+    back = backwards_rows(t[left], rows[left], table)
+    good[left[back]] = False
+    left = np.flatnonzero(good)
+    wild = spikes(t[left], q[left], qd[left] if qd is not None else None, y[left], robot)
+    good[left[wild]] = False
     _refuse_if_few(good, rows, table, "broken", t, q, y)
     dropped = rows[~good]
     if len(dropped):
@@ -135,6 +137,31 @@ def read_log(table: Table, robot: RobotModel) -> Log:
         t, q, qd, y, current, temperature, commanded, rows, segments, step, total, dropped,
         _stated_noise(table, n), tuple(notes),
     )  # fmt: skip
+
+
+def joint_order(table: Table, robot: RobotModel, notes: list[str]) -> list[int]:
+    """Which column belongs to each of the robot's joints, by the names a bag gives."""
+    n = robot.joint_count
+    names = table.keys.get("joint_names")
+    if not isinstance(names, list):
+        return list(range(n))
+    wanted = [joint.name for joint in robot.joints]
+    # Prefixes and suffixes differ from driver to driver: the longest common part decides.
+    found = [
+        next((k for k, name in enumerate(names) if str(name).endswith(w) or w.endswith(str(name))), None)
+        for w in wanted
+    ]
+    if None in found or len(set(found)) != n:
+        notes.append(
+            f"the bag's joints ({', '.join(map(str, names))}) are not named as the robot's; taken in their order"
+        )
+        return list(range(n))
+    order = [int(k) for k in found if k is not None]
+    if order != list(range(n)):
+        notes.append(
+            f"joints were put in the robot's order by their names: {', '.join(str(names[k]) for k in order)}"
+        )
+    return order
 
 
 def _torques(table: Table, n: int, notes: list[str]) -> tuple[np.ndarray, bool]:

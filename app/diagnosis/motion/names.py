@@ -1,7 +1,9 @@
 """Before a name is given: does the residual follow that law, or only something like it?
 
-A law is withheld where a free curve of the same joint explains much beyond it, or where its values are
-none a real arm can have. What remains is tested against every curve.
+A law is withheld where a free curve of the same joint explains much beyond it, where several laws of the joint's angle
+together draw a curve that none of them is, where what is left over is more than what it explains, or where
+its values are none a real arm can have. What remains is tested against every curve, against the stated
+noise, and for a memory that no sensor has.
 """
 
 from __future__ import annotations
@@ -11,11 +13,17 @@ from dataclasses import dataclass
 import numpy as np
 
 from app.diagnosis.motion.exact import ExactFit
+from app.diagnosis.motion.remains import Remains, remains_of
 from app.diagnosis.motion.scoring import Board, null_scores, score_all
-from app.diagnosis.motion.search import LEVEL, Search
+from app.diagnosis.motion.search import LEVEL, Search, Term
 from app.diagnosis.motion.system import Group
 
 SHADOW = 0.05  # share of a law's own gain that a free curve may add before the name is withheld
+BLUR = 0.03  # relative uncertainty of a ripple's order beyond which it is no period
+SWINGS = 1.5  # a ripple shows at least so many
+#: A law worth less than this share of a withheld one on its joint may be its shadow; friction is in every joint.
+FOLLOWER = {"viscous_friction": 0.1, "coulomb_friction": 0.1}
+FOLLOWER_ELSE = 1.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,9 +33,9 @@ class Judgement:
     Args:
         named: per term of the fit, True where its name stands.
         gains: per term, whitened fall of the sum of squares it is worth.
-        leftover_p: family-wise p of the strongest curve.
+        leftover_p: family-wise p of what remains.
         leftover_where: joint and driver of it.
-        reasons: why names were withheld.
+        reasons: why names were withheld, and what remains.
     """
 
     named: list[bool]
@@ -37,35 +45,91 @@ class Judgement:
     reasons: tuple[str, ...]
 
 
-def judge(search: Search, fit: ExactFit) -> Judgement:
-    """Tests every name, and what is left over."""
+def judge(search: Search, fit: ExactFit, stated: np.ndarray | None, done: dict[int, np.ndarray]) -> Judgement:
+    """Tests every name, and what is left over.
+
+    Args:
+        stated: (n,) stated noise of the pooled torques [Nm], or None.
+        done: term -> what the samples were corrected by before its coefficients were fitted.
+    """
     selected = [t.group for t in fit.terms]
-    gains = search.losses_without(selected) if selected else np.zeros(0)
+    gains = search.losses_without(selected, done) if selected else np.zeros(0)
     curves = [g for g in search.system.groups if g.law is None]
     board = score_all(search.system, fit.solution, curves, {}, [])
     null = null_scores(board, search.signs)
     bar = max(float(np.quantile(null, 1 - LEVEL)), np.log10(len(board.candidates) / LEVEL))
     best = int(np.argmax(board.score))
-    p_value = (1 + np.sum(null >= board.score[best])) / (1 + len(null))
+    p_value = float((1 + np.sum(null >= board.score[best])) / (1 + len(null)))
     if board.score[best] < np.log10(len(board.candidates) / LEVEL):
         p_value = max(p_value, 0.05)
     where = dict(board.candidates[best].group.where)
-    named, reasons = [], []
-    for term, values, gain in zip(fit.terms, fit.values, gains, strict=True):
-        law = term.group.law
-        assert law is not None
-        extra, driver = _beyond(board, term.group, bar)
-        if not search.change and not law.lawful(values):
-            named.append(False)
-            reasons.append(f"{law.key} at {_place(term.group)} has values no real arm has")
-        elif extra > SHADOW * gain:
-            named.append(False)
-            reasons.append(
-                f"{law.key} at {_place(term.group)} is withheld: a free curve of {driver} explains more than it"
-            )
-        else:
-            named.append(True)
-    return Judgement(named, gains, float(p_value), where, tuple(reasons))
+    remains = remains_of(search.system, fit.solution, stated)
+    reasons = list(remains.sentences())
+    worst = remains.worst()
+    if worst is not None and p_value > LEVEL:
+        p_value, where = 1.0 / (1 + len(null)), {"joint": worst + 1}
+    why = [_objection(search, board, bar, remains, term, values, cov, gain) for term, values, cov, gain in zip(
+        fit.terms, fit.values, fit.covariances, gains, strict=True)]  # fmt: skip
+    _own_angle(fit.terms, why)
+    _followers(fit.terms, gains, why)
+    for term, reason in zip(fit.terms, why, strict=True):
+        if reason:
+            reasons.append(f"{term.group.label} at {_place(term.group)} is withheld: {reason}")
+    if any(why) and p_value > LEVEL:
+        strongest = max((i for i, r in enumerate(why) if r), key=lambda i: gains[i])
+        p_value = 1.0 / (1 + len(null))
+        where = {
+            k: v for k, v in fit.terms[strongest].group.where.items() if k in ("joint", "driver", "body")
+        }
+    return Judgement([not r for r in why], gains, p_value, where, tuple(reasons))
+
+
+def _objection(
+    search: Search, board: Board, bar: float, remains: Remains, term: Term, values, covariance, gain: float
+) -> str:
+    """Why this name may not be given; empty where nothing speaks against it."""
+    law, group = term.group.law, term.group
+    assert law is not None
+    if not search.change and not law.lawful(values):
+        return "its values are none a real arm has"
+    extra, driver = _beyond(board, group, bar)
+    if extra > SHADOW * gain:
+        return f"a free curve of {driver} explains more than it"
+    if group.joint is not None and remains.energy[group.joint] > gain:
+        return "more is left over on this joint than it explains"
+    if law.key == "torque_ripple":
+        order, names = values["order"], list(values)
+        std = float(np.sqrt(max(covariance[names.index("order"), names.index("order")], 0.0)))
+        assert group.joint is not None
+        span = float(np.ptp(search.system.samples.state.q[:, group.joint]))
+        if std > BLUR * order or order * span < SWINGS * 2 * np.pi:
+            return "it has no certain period"
+    return ""
+
+
+def _own_angle(terms: list[Term], why: list[str]) -> None:
+    """Two or more laws of one joint's angle together are a curve, not laws."""
+    for joint in {t.group.joint for t in terms if t.group.joint is not None}:
+        here = [
+            i
+            for i, t in enumerate(terms)
+            if t.group.joint == joint and t.group.label in ("torque_ripple", "joint_spring")
+        ]
+        ripples = sum(terms[i].group.label == "torque_ripple" for i in here)
+        if ripples >= 2 or (len(here) >= 2 and any(why[i] for i in here)):
+            for i in here:
+                why[i] = why[i] or "together with others it only draws a curve of the joint's angle"
+
+
+def _followers(terms: list[Term], gains: np.ndarray, why: list[str]) -> None:
+    """A small law beside a large one that was withheld may be its shadow."""
+    for i, term in enumerate(terms):
+        if why[i] or term.group.joint is None:
+            continue
+        near = {term.group.joint, int(term.group.where.get("source_joint", 0)) - 1}
+        withheld = [gains[k] for k, t in enumerate(terms) if why[k] and t.group.joint in near]
+        if withheld and gains[i] < FOLLOWER.get(term.group.label, FOLLOWER_ELSE) * max(withheld):
+            why[i] = "it may be the shadow of a stronger one that was withheld"
 
 
 def _place(group: Group) -> str:

@@ -26,7 +26,8 @@ from app.kinematics.robot import GRAVITY
 LARGEST_POOLED = 20_000  # windows the search works on
 LARGEST_USED = 100_000  # samples it looks into
 CHUNK = 10_000
-SLOW = 0.02  # share of a joint's usual speed below which the direction of its friction is open
+SLOW = 0.03  # share of a joint's usual speed below which the direction of its friction is open
+SLOWEST = 0.008  # rad/s or m/s, likewise
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,12 +84,14 @@ def take_samples(
     progress: Progress,
     *,
     shift: float = 0.0,
+    gravity: np.ndarray = GRAVITY,
 ) -> Samples:
     """Windows, the description's columns and blocks.
 
     Args:
         motion: from `motion_of`.
         torque: (m, n) measured [Nm].
+        gravity: (3,) [m/s^2] that is taken to act.
         shift: the torque is taken to be this much late [s]: it is compared with the motion that much earlier.
     """
     q, qd, qdd, smoothing = motion
@@ -109,7 +112,7 @@ def take_samples(
     for start in range(0, len(index), size):
         progress(0.05 + 0.2 * start / len(index), "rigid-body columns")
         part = slice(start, min(start + size, len(index)))
-        columns = torque_regressor(robot, q[part], qd[part], qdd[part])
+        columns = torque_regressor(robot, q[part], qd[part], qdd[part], gravity=gravity)
         rigid[part] = columns @ nominal
         payload[part] = columns[:, :, -10:] @ to_last
         pooled = columns if window == 1 else columns.reshape(-1, window, n, 10 * n).mean(axis=1)
@@ -118,7 +121,7 @@ def take_samples(
     state = State(
         t=t, q=q, qd=qd, qdd=qdd, torque=rigid,
         torque_rate=_rate(t, rigid, window, runs),
-        gravity_torque=gravity_columns @ GRAVITY,
+        gravity_torque=gravity_columns @ gravity,
         gravity_columns=gravity_columns, force_columns=force_columns, payload_columns=payload,
         temperature=None if log.temperature is None else log.temperature[index],
         speed=speed, seconds=float(log.t[-1] - log.t[0]),
@@ -186,8 +189,8 @@ def _usable(state: State, smoothing: Smoothing, measured: np.ndarray, pool, runs
             out[:, j] = False
         elif state.moves(j):
             noise = smoothing.noise[j] if smoothing.source == "recorded speed" else 0.0
-            slow = slowest[:, j] < max(SLOW * state.speed[j], 3 * noise)
-            if slow.mean() < 0.6:
+            slow = slowest[:, j] < max(SLOW * state.speed[j], min(SLOWEST, 0.15 * state.speed[j]), 3 * noise)
+            if slow.mean() < 0.85:
                 out[:, j] &= ~slow
     edge = min(max(smoothing.half_widths), 6)
     for run in runs:

@@ -12,6 +12,7 @@ from scipy.special import gammaincc, gammaln
 
 from app.diagnosis.motion.system import Group, System
 
+BLIND = 1e-6  # inverse of the standard deviation given to what cannot be seen
 LEAST_VISIBLE = 0.05  # of a law on one joint
 #: Loads and leaning are held back by the prior of the masses alone: what little of them shows is trusted.
 LEAST_VISIBLE_SHARED = 3e-4
@@ -49,12 +50,15 @@ def solve(
     A, g, yy = system.normal(selected, blocks)
     i = len(prior)
     A[:i, :i] += prior
-    scale = np.sqrt(np.maximum(np.diag(A), 1e-30))
+    scale = np.sqrt(np.diag(A))
+    blind = scale <= 1e-9 * scale.max()  # columns this log does not excite: they stay zero and uncertain
+    scale[blind] = np.inf
     A = A / scale / scale[:, None]
-    A[np.diag_indices_from(A)] += 1e-11
+    A[np.diag_indices_from(A)] += np.where(blind, 1.0, 1e-11)
+    scale[blind] = BLIND
     inverse = np.linalg.inv(A) / scale / scale[:, None]
     inverse = 0.5 * (inverse + inverse.T)
-    theta = inverse @ g
+    theta = inverse @ np.where(blind, 0.0, g)
     columns, positions, _ = system.layout(selected)
     return Solution(selected, theta, inverse, yy - float(g @ theta), columns, positions)
 

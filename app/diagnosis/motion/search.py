@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
+from types import MappingProxyType
 
 import numpy as np
 
@@ -16,6 +18,7 @@ from app.diagnosis.result import Progress
 FLIPS = 199
 LEVEL = 0.01
 MOST_TERMS = 40
+BETTER = 2.0  # an exchange must be worth this much
 DROP = 8.0  # a term must be worth this much beyond the Bayesian criterion
 
 
@@ -55,11 +58,11 @@ class Search:
         groups = [g for g in self.groups if not g.base and _key(g) not in taken]
         return score_all(self.system, solution, groups, self.windows, list(self.windows))
 
-    def forward(self, progress: Progress, start: list[Term]) -> list[Term]:
+    def forward(self, progress: Progress, start: list[Term], stay: int = 0) -> list[Term]:
         """Takes the best candidate as long as it beats the null and held-out loss falls.
 
         Args:
-            start: terms that are in already and stay.
+            start: terms that are in already; the first `stay` of them stay.
         """
         terms = list(start)
         refused: set = set()
@@ -80,6 +83,9 @@ class Search:
                 if (_key(candidate.group), candidate.window) in refused:
                     continue
                 group = self._settle(candidate, selected)
+                if not self._possible(group, selected):
+                    refused.add((_key(candidate.group), candidate.window))
+                    continue
                 if loss is None:
                     loss = heldout_losses(self.system, selected, self.prior)
                 falls = heldout_losses(self.system, [*selected, group], self.prior) < loss
@@ -91,8 +97,15 @@ class Search:
                 refused.add((_key(candidate.group), candidate.window))
             if not taken:
                 break
-            terms = self.backward(terms, len(start))
+            terms = self.backward(terms, stay)
         return terms
+
+    def _possible(self, group: Group, selected: list[Group]) -> bool:
+        """True where the values it would take are some that an arm can have."""
+        if self.change or group.law is None:
+            return True
+        theta = solve(self.system, [*selected, group], self.prior).theta[-group.size :]
+        return group.law.lawful(group.law.values(theta[: len(group.law.linear)], group.shape))
 
     def _settle(self, candidate: Candidate, selected: list[Group]) -> Group:
         """The candidate with its window or its shape moved to where the fit is best."""
@@ -101,6 +114,40 @@ class Search:
         if candidate.window is not None:
             return located(self.system, self.prior, selected, candidate, law.key == "contact")
         return bent(self.system, self.prior, selected, candidate.group)
+
+    def exchange(self, terms: list[Term], stay: int = 0) -> list[Term]:
+        """Puts a simpler or better law of the same joint in the place of one that was taken."""
+        penalty = np.log(max(self.system.rows, 3))
+        for i in range(stay, len(terms)):
+            term = terms[i]
+            if term.group.joint is None:
+                continue
+            others = [t.group for k, t in enumerate(terms) if k != i]
+            own = self.losses_without([t.group for t in terms])[i] - penalty * _freedom(term.group)
+            taken = {_key(g) for g in others}
+            here = [
+                g for g in self.groups if g.joint == term.group.joint and not g.base and _key(g) not in taken
+            ]
+            solution = solve(self.system, others, self.prior)
+            board = score_all(self.system, solution, here, {}, [])
+            worth = board.gain - penalty * np.array([_freedom(c.group) for c in board.candidates])
+            for index in np.argsort(-worth)[:4]:
+                group = board.candidates[index].group
+                if group.label == term.group.label and group.where == term.group.where:
+                    continue
+                group = bent(self.system, self.prior, others, group)
+                if not self._possible(group, others):
+                    continue
+                swapped = [*others[:i], group, *others[i:]]
+                gain = self.losses_without(swapped)[i] - penalty * _freedom(group)
+                if gain > own + BETTER:
+                    terms = [
+                        *terms[:i],
+                        Term(group, term.p_value, board.candidates[index].visible),
+                        *terms[i + 1 :],
+                    ]
+                    own = gain
+        return terms
 
     def backward(self, terms: list[Term], keep: int = 0) -> list[Term]:
         """Drops terms whose place others have taken; the first `keep` stay."""
@@ -114,17 +161,29 @@ class Search:
             terms = [t for i, t in enumerate(terms) if i != weakest + keep]
         return terms
 
-    def losses_without(self, selected: list[Group]) -> np.ndarray:
-        """(s,) how much the whitened sum of squares rises when each is taken out and the rest refitted."""
+    def losses_without(
+        self, selected: list[Group], done: Mapping[int, np.ndarray] = MappingProxyType({})
+    ) -> np.ndarray:
+        """(s,) how much the whitened sum of squares rises when each is taken out and the rest refitted.
+
+        Args:
+            done: group -> what the samples were corrected by already, in its columns.
+        """
         solution = solve(self.system, selected, self.prior)
         out: list[float] = []
         at = len(solution.theta) - sum(g.size for g in selected)
-        for group in selected:
+        for i, group in enumerate(selected):
             place = slice(at, at + group.size)
-            part = solution.theta[place]
+            part = solution.theta[place] + done.get(i, 0.0)
             out.append(float(part @ np.linalg.solve(solution.covariance[place, place], part)))
             at += group.size
         return np.array(out)
+
+
+def _freedom(group: Group) -> int:
+    """Parameters of a law, its shape counted."""
+    assert group.law is not None
+    return len(group.law.linear) + len(group.shape)
 
 
 def _key(group: Group) -> tuple:

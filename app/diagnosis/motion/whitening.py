@@ -31,15 +31,25 @@ class Whitener:
         weight = self.weight / self.sigma
         return out * (weight if columns.ndim == 1 else weight[:, None])
 
-    @property
-    def spread(self) -> float:
-        """Standard deviation of the noise itself [Nm], innovation and what it drags along."""
-        response = np.zeros(400)
+    def _response(self) -> np.ndarray:
+        """What one innovation leaves behind, row by row."""
+        response = np.zeros(600)
         response[0] = 1.0
         for i in range(1, len(response)):
             p = min(i, len(self.lags))
             response[i] = response[i - p : i][::-1] @ self.lags[:p]
-        return float(self.sigma * np.sqrt(np.sum(response**2)))
+        return response
+
+    @property
+    def spread(self) -> float:
+        """Standard deviation of the noise itself [Nm], innovation and what it drags along."""
+        return float(self.sigma * np.linalg.norm(self._response()))
+
+    def correlation(self) -> np.ndarray:
+        """(400,) correlation of rows so many apart."""
+        response = self._response()
+        products = np.array([response[: len(response) - k] @ response[k:] for k in range(400)])
+        return products / products[0]
 
 
 def weights(usable: np.ndarray, runs: list[slice], lags: int) -> np.ndarray:

@@ -42,6 +42,7 @@ class Law(ABC):
         windowed: True where it acts from a time on, or between two times.
         shared: True where it reaches every joint.
         follows_model: True where the columns are made of the predicted torque itself.
+        corrected: True where the samples are corrected for it and looked at again.
     """
 
     key = ""
@@ -55,6 +56,7 @@ class Law(ABC):
     windowed = False
     shared = False
     follows_model = False
+    corrected = False
 
     @abstractmethod
     def places(self, state: State) -> list[Place]:

@@ -22,7 +22,7 @@ class Load(Law):
     def values(self, coefficients: np.ndarray, shape: Values) -> dict[str, float]:
         mass = float(coefficients[0])
         safe = mass if abs(mass) > SMALLEST else SMALLEST
-        com = np.clip(coefficients[1:4] / safe, -1.0, 1.0)
+        com = coefficients[1:4] / safe
         return {
             "mass": mass,
             "com_x": float(com[0]),
@@ -34,6 +34,3 @@ class Load(Law):
     def body(self, values: Values) -> np.ndarray:
         """(10,) inertial parameters."""
         return point_mass(values["mass"], np.array([values["com_x"], values["com_y"], values["com_z"]]))
-
-    def lawful(self, values: Values) -> bool:
-        return bool(np.linalg.norm([values["com_x"], values["com_y"], values["com_z"]]) < 1.0)

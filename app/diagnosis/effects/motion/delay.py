@@ -19,6 +19,7 @@ class Delay(Law):
     linear = ("delay",)
     shared = True
     follows_model = True
+    corrected = True
 
     def places(self, state: State) -> list[Place]:
         return [Place({"driver": "time"})]

@@ -19,6 +19,7 @@ class GravityDirection(Law):
     units: ClassVar = {"gx": "m/s^2", "gy": "m/s^2", "gz": "m/s^2"}
     linear = ("gx", "gy", "gz")
     shared = True
+    corrected = True
 
     def places(self, state: State) -> list[Place]:
         return [Place({"body": "base", "driver": self.driver})]

@@ -12,6 +12,7 @@ from app.diagnosis.effects.motion._state import State
 class Payload(Load):
     key = "payload"
     title = "a load on the flange"
+    positive = ("mass",)
     equation = "tau = tau of a mass at its centre in the flange frame"
 
     def places(self, state: State) -> list[Place]:

@@ -18,6 +18,7 @@ class TorqueConstant(JointLaw):
     units: ClassVar = {"scale": ""}
     linear = ("scale",)
     follows_model = True
+    corrected = True
 
     def places(self, state: State) -> list[Place]:
         return [Place({"joint": j + 1}) for j in range(state.joints)]

@@ -24,7 +24,7 @@ class WarmupFriction(JointLaw):
             Place({"joint": j + 1, "driver": "time"}, {"time_constant": share * state.seconds})
             for j in range(state.joints)
             if state.moves(j)
-            for share in (0.08, 0.2, 0.45, 1.0, 3.0)
+            for share in (0.08, 0.2, 0.45, 1.0)
         ]
 
     def columns(self, state: State, where: Where, shape: Values) -> np.ndarray:

@@ -1,0 +1,76 @@
+"""What is left of each joint's torque: more than the stated noise, or with a memory that no sensor has?"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from app.diagnosis.motion.scoring import Solution
+from app.diagnosis.motion.system import System
+
+EXCESS = 0.10  # of the stated variance
+LONGEST_MEMORY = 0.25  # s: sensors and drives forget faster than this
+_SURE = 5.0  # standard deviations
+
+
+@dataclass(frozen=True, eq=False)
+class Remains:
+    """Per joint.
+
+    Args:
+        ratio: (n,) variance of the residual over the stated one; nan where none is stated.
+        memory: (n,) time [s] over which the residual hangs together.
+        energy: (n,) what is left over, in squares of the whitened noise; 0 where nothing is.
+    """
+
+    ratio: np.ndarray
+    memory: np.ndarray
+    energy: np.ndarray
+
+    def worst(self) -> int | None:
+        """The joint with the most left over, or None."""
+        return int(np.argmax(self.energy)) if self.energy.max() > 0 else None
+
+    def sentences(self) -> list[str]:
+        out = []
+        for j in np.flatnonzero(self.energy > 0):
+            if np.isfinite(self.ratio[j]) and self.ratio[j] > 1 + EXCESS:
+                out.append(
+                    f"joint {j + 1}: what remains is {np.sqrt(self.ratio[j]):.2f} times the stated noise"
+                )
+            else:
+                out.append(
+                    f"joint {j + 1}: what remains hangs together over {self.memory[j]:.2f} s; no noise does"
+                )
+        return out
+
+
+def remains_of(system: System, solution: Solution, stated: np.ndarray | None) -> Remains:
+    """Compares the residual with the stated noise, and looks for a memory in it.
+
+    Args:
+        stated: (n,) one-sigma of a pooled torque [Nm].
+    """
+    n = system.joints
+    ratio, memory, energy = np.full(n, np.nan), np.zeros(n), np.zeros(n)
+    for j, (part, col, pos, whitener) in enumerate(
+        zip(system.parts, solution.columns, solution.positions, system.whiteners, strict=True)
+    ):
+        rows = whitener.weight > 0
+        count = int(rows.sum())
+        if count < 50:
+            continue
+        white = (part.columns[:, 0] - part.columns[:, col] @ solution.theta[pos])[rows]
+        level = float(white @ white) / count
+        spread = whitener.spread * np.sqrt(max(level, 1e-12))
+        rho = whitener.correlation()
+        memory[j] = system.samples.step * (0.5 + float(np.sum(np.abs(rho[1:]))))
+        free = count / (1 + 2 * float(np.sum(rho[1:] ** 2)))
+        if stated is not None:
+            ratio[j] = (spread / stated[j]) ** 2
+            if ratio[j] > 1 + EXCESS + _SURE * np.sqrt(2 / free):
+                energy[j] = count * (ratio[j] - 1) * (stated[j] / whitener.sigma) ** 2
+        elif memory[j] > max(LONGEST_MEMORY, 6 * system.samples.step):
+            energy[j] = count * (spread / whitener.sigma) ** 2
+    return Remains(ratio, memory, energy)
