@@ -130,10 +130,10 @@ class Pendant:
 
     def go(self, q: np.ndarray, then: Job | None = None) -> None:
         """The arm moves to q (n,), visibly; `then` is done at the end."""
-        self.worker.animate("move", self._travel([np.asarray(q, float)], lambda _: then() if then else None))
+        self.worker.animate("move", self._travel([np.asarray(q, float)], lambda _: then and then()))
         self.page.numbers()
 
-    def tour(self, stops: list[np.ndarray], arrived: Callable[[int], None], rest: float = 0.5) -> None:
+    def tour(self, stops: list[np.ndarray], arrived: Callable[[int], object], rest: float = 0.5) -> None:
         """The arm goes through poses; `arrived` hears the number of each, and once more -1 at the end."""
         self.worker.animate("move", self._travel(stops, arrived, rest))
 
@@ -276,7 +276,7 @@ class Pendant:
         self.page.refresh(self.session.state)  # what was entered goes back to what is so
 
     def _travel(
-        self, stops: list[np.ndarray], arrived: Callable[[int], None], rest: float = 0.0
+        self, stops: list[np.ndarray], arrived: Callable[[int], object], rest: float = 0.0
     ) -> Iterator[None]:
         for number, stop in enumerate(stops):
             yield from motion.move(self.q.copy(), stop, self.show)

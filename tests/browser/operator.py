@@ -48,12 +48,10 @@ class Operator:
         self.until(lambda: self.pendant.worker.idle(0.05), "the arm to stand")
 
     def close_notice(self):
-        """The page says that this machine has no graphics card."""
-        notice = self.page.locator(".mantine-Notification-closeButton")
-        try:
-            notice.first.click(timeout=3000)
-        except Exception:
-            return
+        """Closes what the page says about this machine having no graphics card, where it says so by now."""
+        self.page.evaluate(
+            "document.querySelectorAll('.mantine-Notification-closeButton').forEach(b => b.click())"
+        )
 
     def click(self, name, row=None):
         """Presses a button, in the row of this label where one is named."""
@@ -100,8 +98,6 @@ class Operator:
     def picture(self, name):
         """Leaves a screenshot for people to look at."""
         SCREENSHOTS.mkdir(exist_ok=True)
-        notice = self.page.locator(".mantine-Notification-closeButton")
-        if notice.count():
-            notice.first.click()
-        self.page.wait_for_timeout(400)
+        self.close_notice()
+        self.page.wait_for_timeout(500)
         self.page.screenshot(path=str(SCREENSHOTS / f"{name}.png"))
