@@ -1,12 +1,14 @@
 """What an arm touches: itself, its tool, the table, the spike, the fence.
 
-Every link is one convex hull of what is drawn of it, so the check sees what the operator sees. Pairs that
-belong together are left out: neighbours, what touches at home, and pairs that may touch (tool tip and spike).
+The check sees what the operator sees. Every link is first one convex hull of what is drawn of it, which is
+quick; only where two hulls come near are the drawn solids themselves compared, because a hull fills hollows.
+Pairs that belong together are left out: neighbours, what touches at home, and pairs that may touch (tool tip
+and spike).
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 import coal  # pyright: ignore[reportMissingImports]  (found through a .pth hook)
@@ -16,12 +18,14 @@ import pinocchio as pin  # pyright: ignore[reportMissingImports]  (found through
 from app.geometry.pose import Pose
 from app.kinematics.robot import RobotModel
 from app.kinematics.shapes import Shape
-from app.kinematics.solids import outline, robot_shapes
+from app.kinematics.solids import outline, robot_shapes, solids
 
 #: Pairs that may touch: that is what a touch is.
 ALLOWED = (("tool tip", "spike"),)
 _NEAR_AT_HOME = 0.004  # m: links this close at home are neighbours in fact
+_NEAR = 0.05  # m: hulls nearer than this are looked at solid by solid
 _LEAST_MARGIN = 1e-6  # m: at zero, solids with one centre are missed by rounding
+_DISTANCE = coal.DistanceRequest()
 _EXACT = {"box": lambda s: coal.Box(*s), "sphere": lambda s: coal.Sphere(*s)}
 
 
@@ -58,14 +62,17 @@ class CollisionWorld:
         margin: float = 0.0,
     ):
         self.robot, self._model, self._data = robot, robot.model, robot.model.createData()
+        self._margin = margin
         self._ids = [0, *(robot.model.getJointId(joint.name) for joint in robot.joints)]
         self._geometry = pin.GeometryModel()
         names: list[str] = []
         bodies: list[int] = []
-        for body, name, solid, pose in _bodies(robot, tool_shapes, obstacles):
+        self._solids: list[list[coal.CollisionGeometry]] = []
+        for body, name, hull, pose, drawn in _bodies(robot, tool_shapes, obstacles):
             self._geometry.addGeometryObject(
-                pin.GeometryObject(f"{len(names)} {name}", self._ids[body], pin.SE3(pose.matrix), solid)
+                pin.GeometryObject(f"{len(names)} {name}", self._ids[body], pin.SE3(pose.matrix), hull)
             )
+            self._solids.append(drawn)
             names.append(name)
             bodies.append(body)
         arm = len(names) - len(obstacles)  # links and tool come first, what stands around comes last
@@ -115,26 +122,28 @@ class CollisionWorld:
 
     def check(self, q: np.ndarray) -> list[ContactPair]:
         """Pairs that touch at q (n,) [rad or m], deepest first; empty where the way is free."""
-        q = np.asarray(q, float)
-        if not pin.computeCollisions(self._model, self._data, self._geometry, self._scratch, q, False):
-            return []
-        found = []
-        for k, result in enumerate(self._scratch.collisionResults):
-            if result.isCollision():  # its own depth is often zero: ask for the distance
-                depth = pin.computeDistance(self._geometry, self._scratch, k).min_distance
-                i, j = self._pairs[k]
-                found.append(ContactPair(self._names[i], self._names[j], float(depth)))
-        return sorted(found, key=lambda pair: pair.distance)
+        return sorted(self._touching(q), key=lambda pair: pair.distance)
 
     def collides(self, q: np.ndarray) -> bool:
         """True where anything touches; stops at the first pair."""
+        return next(self._touching(q), None) is not None
+
+    def _touching(self, q: np.ndarray) -> Iterator[ContactPair]:
         q = np.asarray(q, float)
-        return bool(pin.computeCollisions(self._model, self._data, self._geometry, self._scratch, q, True))
+        if not pin.computeCollisions(self._model, self._data, self._geometry, self._scratch, q, False):
+            return
+        for k, result in enumerate(self._scratch.collisionResults):
+            if result.isCollision():
+                distance = self._apart(k)
+                if distance <= self._margin:
+                    i, j = self._pairs[k]
+                    yield ContactPair(self._names[i], self._names[j], distance)
 
     def distance(self, q: np.ndarray) -> ContactPair | None:
         """The nearest pair at q (n,) and its distance [m]; None where there is no pair to look at.
 
-        Pairs are taken by the gap between the spheres around them, and no further than that can still matter.
+        Farther than 50 mm it is the distance of hulls, a little less than that of what is drawn. Pairs are
+        taken by the gap between the spheres around them, and no further than that can still matter.
         """
         if not self._pairs:
             return None
@@ -151,22 +160,34 @@ class CollisionWorld:
         for k in np.argsort(gaps).tolist():
             if gaps[k] >= best:
                 break
-            value = pin.computeDistance(self._geometry, self._scratch, k).min_distance
+            value = self._apart(k, best)
             if value < best:
-                best, nearest = float(value), k
+                best, nearest = value, k
         i, j = self._pairs[nearest]
         return ContactPair(self._names[i], self._names[j], best)
 
     def _distances(self, q: np.ndarray) -> np.ndarray:
         """(pairs,) all distances [m]."""
-        if not self._pairs:
-            return np.empty(0)
-        pin.computeDistances(self._model, self._data, self._geometry, self._scratch, q)
-        return np.array([result.min_distance for result in self._scratch.distanceResults])
+        pin.updateGeometryPlacements(self._model, self._data, self._geometry, self._scratch, q)
+        return np.array([self._apart(k) for k in range(len(self._pairs))])
+
+    def _apart(self, k: int, best: float = np.inf) -> float:
+        """Distance [m] of pair k where the geometry stands; exact only where it is below `best`."""
+        hulls = float(pin.computeDistance(self._geometry, self._scratch, k).min_distance)
+        i, j = self._pairs[k]
+        if hulls >= min(best, _NEAR) or len(self._solids[i]) * len(self._solids[j]) == 1:
+            return hulls
+        here, there = (_transform(self._scratch.oMg[index]) for index in (i, j))
+        least, result = np.inf, coal.DistanceResult()
+        for a in self._solids[i]:
+            for b in self._solids[j]:
+                result.clear()
+                least = min(least, coal.distance(a, here, b, there, _DISTANCE, result))
+        return float(least)
 
 
 def _bodies(robot: RobotModel, tool_shapes: Sequence[Shape], obstacles: Sequence[Shape]):
-    """(body, name, coal solid, T_body_solid) of links, then tool, then obstacles."""
+    """(body, name, hull, T_body_hull, solids in the hull's frame) of links, then tool, then obstacles."""
     drawn = robot_shapes(robot)
     chain = robot.chain
     T_body_flange = Pose.of(chain.flange_rotation, chain.flange_translation)
@@ -177,9 +198,10 @@ def _bodies(robot: RobotModel, tool_shapes: Sequence[Shape], obstacles: Sequence
             links.setdefault((shape.body, _readable(shape.link)), []).append(shape)
     for (body, name), shapes in links.items():
         points = np.concatenate([s.T_body_shape.apply(outline(s)) for s in shapes])
-        yield body, name, _hull(points), Pose.identity()
+        yield body, name, _hull(points), Pose.identity(), [_hull(s.points) for s in solids(shapes)]
     for shape in obstacles:
-        yield 0, _readable(shape.link), _solid(shape), shape.T_body_shape
+        solid = _solid(shape)
+        yield 0, _readable(shape.link), solid, shape.T_body_shape, [solid]
 
 
 def _solid(shape: Shape):
@@ -196,6 +218,10 @@ def _hull(points: np.ndarray):
     for point in np.unique(points.round(6), axis=0):
         vertices.append(point)
     return coal.Convex.convexHull(vertices, True, "Qt")
+
+
+def _transform(placement: pin.SE3) -> coal.Transform3s:
+    return coal.Transform3s(placement.rotation, placement.translation)
 
 
 def _sphere(solid) -> tuple[np.ndarray, float]:

@@ -51,6 +51,31 @@ def test_an_overlap_has_a_negative_distance_and_says_who(boom):
     assert pair.sentence() == "boom arm touches fence post"
 
 
+def test_what_stands_in_the_hollow_of_a_link_does_not_touch_it(tmp_path):
+    path = tmp_path / "angle.urdf"  # an L: a bar along X and a post along Z at its end
+    path.write_text(
+        BOOM.replace(
+            '<visual><origin xyz="1 0 0"/><geometry><sphere radius="0.1"/></geometry></visual>',
+            """<visual><origin xyz="0.5 0 0"/><geometry><box size="1 0.1 0.1"/></geometry></visual>
+               <visual><origin xyz="0.95 0 0.5"/><geometry><box size="0.1 0.1 1"/></geometry></visual>""",
+        )
+    )
+    robot = load_robot(path)
+    inside = ball((0.75, 0.0, 0.2), 0.05, link="post")
+    world = CollisionWorld(robot, obstacles=[inside])
+    assert world.check(np.zeros(1)) == [] and not world.collides(np.zeros(1))
+    assert world.distance(np.zeros(1)).distance == pytest.approx(0.1, abs=2e-3)
+    touching = CollisionWorld(robot, obstacles=[ball((0.87, 0.0, 0.2), 0.05, link="post")])
+    assert touching.collides(np.zeros(1)) and touching.check(np.zeros(1))[0].distance < 0
+
+
+def test_an_arm_hanging_beside_its_pedestal_is_free():
+    robot = load_robot("ur10e")
+    q = robot.home.copy()
+    q[1:4] = 1.2, 0.2, -1.4  # upper arm pointing down past the base, as on a pedestal
+    assert CollisionWorld(robot).check(q) == []
+
+
 def test_a_margin_warns_before_contact(boom):
     post = ball((0.0, 1.23, 0.0), 0.1, link="post")
     q = np.array([np.pi / 2])
