@@ -84,7 +84,7 @@ def prove(
     opened = json.loads(sealed.read_text(encoding="utf-8"))
     strange = family.strange()
     judged = [judge(a, s, strange) for a, s in zip(opened, said, strict=True)]
-    each = max(4, cases // 25)
+    each = max(1, cases // 20)
     found = _controls(family, seed, each, folder, say, workers) if with_controls else {}
     return Proof(
         family=family_key,

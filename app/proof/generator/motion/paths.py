@@ -105,11 +105,11 @@ def _stops(arm: Arm, seconds: float, rng: np.random.Generator) -> StopPath:
     low, high, top, soft = _limits(arm)
     stops, leave, last, now = [rng.uniform(low, high)], [], [], 0.0
     while now < seconds:
-        goal = rng.uniform(low, high)
+        goal = _next_stop(stops[-1], low, high, rng)
         for _ in range(40):
             if _above_floor(arm, goal[None]):
                 break
-            goal = rng.uniform(low, high)
+            goal = _next_stop(stops[-1], low, high, rng)
         way = np.abs(goal - stops[-1])
         # peaks of a fifth-order move: 1.875 of the mean speed, 5.774 of way over time squared
         need = max(float((1.875 * way / top).max()), float(np.sqrt(5.774 * way / soft).max()), 0.3)
@@ -119,6 +119,11 @@ def _stops(arm: Arm, seconds: float, rng: np.random.Generator) -> StopPath:
         last.append(need * rng.uniform(1.0, 1.6))
         now += last[-1]
     return StopPath(np.array(stops), np.array(leave), np.array(last))
+
+
+def _next_stop(stop: np.ndarray, low: np.ndarray, high: np.ndarray, rng: np.random.Generator) -> np.ndarray:
+    """A stop up to a third of each joint's range away."""
+    return np.clip(stop + rng.uniform(-0.35, 0.35, len(stop)) * (high - low), low, high)
 
 
 def _above_floor(arm: Arm, q: np.ndarray) -> bool:

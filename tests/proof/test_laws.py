@@ -1,0 +1,134 @@
+"""Two laws written apart, the generator's and the diagnosis library's, say the same of the same effect."""
+
+import numpy as np
+import pytest
+
+from app import catalog
+from app.diagnosis.effects.motion._state import State
+from app.diagnosis.static.cell import nominal_cell, pose
+from app.diagnosis.static.effect import Place
+from app.diagnosis.static.situation import situation_for
+from app.kinematics import load_robot
+from app.kinematics.dynamics import (
+    flange_to_last_link,
+    gravity_and_force_columns,
+    inertial_parameters,
+    torque_regressor,
+)
+from app.proof.generator.effects.term import Request
+from app.proof.generator.motion.cell import effect_on_torques
+from app.proof.generator.motion.making import MotionPlan, make_motion
+from app.proof.generator.static.cell import contact, seen, world_with
+from app.proof.generator.static.making import Plan, make
+from app.proof.generator.urdf import read_arm
+from tests.proof.arms import random_arm
+
+SAME_PLACE = 1e-9  # m
+SAME_TORQUE = 1e-6  # relative to the largest torque of the effect
+INTERPOLATED = 0.02  # relative; the library interpolates a late torque linearly between samples
+MOVING = 0.03  # rad/s; slower, the two round off the sign of the speed differently
+
+OURS = catalog.members("app.proof.generator.effects.static", "EFFECT")
+THEIRS = catalog.members("app.diagnosis.effects.static", "EFFECT")
+OURS_MOTION = catalog.members("app.proof.generator.effects.motion", "EFFECT")
+THEIRS_MOTION = catalog.members("app.diagnosis.effects.motion", "EFFECT")
+
+
+def _place_and_values(effect, situation, term):
+    """The library's place and values for a term of the generator."""
+    given = dict(term.parameters)
+    if term.effect == "payload":
+        given |= {f"moment_{c}": given["mass"] * given[f"com_{c}"] for c in "xyz"}
+    step = {k: v for k, v in term.where.items() if k == "from_row"}
+    wanted = {k: v for k, v in term.where.items() if k != "from_row"}
+    fits = []
+    for place in effect.places(situation):
+        names = [q.name for q in effect.quantities(situation, place)]
+        same = {k: v for k, v in place.where.items() if k != "kind"} == wanted
+        if same and bool(step) == place.scan and set(names) <= set(given):
+            fits.append((place, names))
+    place, names = max(fits, key=lambda fit: len(fit[1]))
+    return Place({**place.where, **step}, place.fixed), np.array([given[name] for name in names])
+
+
+@pytest.mark.parametrize("topology", ["spherical_wrist", "offset_wrist", "seven_axes"])
+@pytest.mark.parametrize("key", sorted(set(OURS) & set(THEIRS)))
+def test_the_library_moves_the_tool_as_the_generator_does(key, topology, tmp_path):
+    _, path = random_arm(topology, tmp_path, 1)
+    arm, robot = read_arm(path), load_robot(path)
+    kind = "touch" if key == "touch_indentation" else "tracker"
+    plan = Plan(kind=kind, samples=24, noise=1e-9, sessions=1, targets=2, loads_kg=(0.0, 3.0))
+    if key == "payload":
+        plan = Plan(kind=kind, samples=24, noise=1e-9, declares_compliance=True)
+    made = make(plan, arm, arm, [Request(key)], np.random.default_rng(4))
+    cell, term = made.cell, made.terms[0]
+    situation = situation_for(
+        robot,
+        cell.q,
+        payload=cell.load_kg,
+        payload_com=cell.load_at,
+        declared_compliance=cell.compliance,
+        time=cell.t,
+    )
+    place, values = _place_and_values(THEIRS[key], situation, term)
+    there = THEIRS[key].apply(nominal_cell(situation), situation, place, values)
+    points = pose(situation, there, cell.tools[0]).points
+    if kind == "touch":
+        assert np.abs(points[:, 0] - contact(cell, world_with(cell, made.terms))[0]).max() < SAME_PLACE
+        return
+    view = cell.views[0]
+    points = points @ view[:3, :3].T + view[:3, 3]
+    distance = np.linalg.norm(points, axis=-1, keepdims=True)
+    measured = points * there.scale[:, None, None] + there.zero[:, None, None] * points / distance
+    assert np.abs(measured - seen(cell, world_with(cell, made.terms))).max() < SAME_PLACE
+    nothing = seen(cell, world_with(cell, ()))
+    assert np.abs(measured - nothing).max() > 1e-5  # both really move it
+
+
+def _state(robot, cell) -> State:
+    """The library's state of the generator's exact motion."""
+    q, qd, qdd = cell.state
+    columns = torque_regressor(robot, q, qd, qdd)
+    rigid = columns @ inertial_parameters(robot)
+    gravity, force = gravity_and_force_columns(robot, q)
+    step = 1e-5
+    ahead, back = (
+        torque_regressor(robot, *cell.path(cell.t + s)) @ inertial_parameters(robot) for s in (step, -step)
+    )
+    return State(
+        t=cell.t,
+        q=q,
+        qd=qd,
+        qdd=qdd,
+        torque=rigid,
+        torque_rate=(ahead - back) / (2 * step),
+        gravity_torque=gravity @ np.array([0.0, 0.0, -9.81]),
+        gravity_columns=gravity,
+        force_columns=force,
+        payload_columns=columns[:, :, -10:] @ flange_to_last_link(robot),
+        temperature=None,
+        speed=np.quantile(np.abs(qd), 0.9, axis=0),
+        seconds=float(cell.t[-1]),
+        sliding=np.zeros(cell.arm.n, bool),
+    )
+
+
+@pytest.mark.parametrize("topology", ["spherical_wrist", "seven_axes"])
+@pytest.mark.parametrize("key", sorted(set(OURS_MOTION) & set(THEIRS_MOTION)))
+def test_the_library_adds_the_torque_that_the_generator_does(key, topology, tmp_path):
+    _, path = random_arm(topology, tmp_path, 1)
+    arm, robot = read_arm(path), load_robot(path)
+    made = make_motion(MotionPlan(samples=1200), arm, arm, [Request(key)], np.random.default_rng(4))
+    term = made.terms[0]
+    ours = effect_on_torques(made.cell, made.terms, term)
+    theirs = THEIRS_MOTION[key].apply(_state(robot, made.cell), term.where, term.parameters)
+    if theirs.ndim == 1:
+        whole = np.zeros_like(ours)
+        whole[:, term.where["joint"] - 1] = theirs
+        theirs = whole
+    moving = np.abs(made.cell.qd) > MOVING
+    moving[:10] = False  # a late torque has no past at the start
+    assert np.all(moving.sum(axis=0) > 100)
+    size = np.abs(ours).max()
+    tolerance = INTERPOLATED if key == "delay" else SAME_TORQUE
+    assert np.abs(theirs - ours)[moving].max() < tolerance * size
