@@ -98,3 +98,8 @@ def evidence(fitted: Fitted) -> float:
         gram = projected.T @ projected / noise
         value += float(np.linalg.slogdet(np.eye(len(spreads)) + gram)[1]) + np.log(n)
     return float(value)
+
+
+def spread_of(fitted: Fitted) -> float:
+    """The learnt one-sigma size of a geometric error [m]; 0 where none was fitted."""
+    return next((t.spread / _unit(t) for t in fitted.terms if np.isfinite(t.spread)), 0.0)

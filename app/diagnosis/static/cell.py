@@ -41,6 +41,10 @@ class Cell:
         q[:, joint] += amount
         return replace(self, q=q)
 
+    def with_joints(self, q: np.ndarray) -> Cell:
+        """The cell with its joints at q (m, n)."""
+        return replace(self, q=q)
+
     def add_link(self, link: int, shift: np.ndarray, turn: np.ndarray) -> Cell:
         """The cell with the placement after link `link` (0-based) moved; (3,) or (m, 3) each."""
         return replace(self, shifts=_added(self.shifts, link, shift), turns=_added(self.turns, link, turn))

@@ -8,11 +8,12 @@ import numpy as np
 
 from app.diagnosis.model import SavedModel
 from app.diagnosis.result import Diagnosis, Progress
-from app.diagnosis.static.fit import Fitted, Term, fit
-from app.diagnosis.static.models import held_terms
-from app.diagnosis.static.noise import starting_weights, weights_from
-from app.diagnosis.static.nuisance import starting_setup
-from app.diagnosis.static.plan import Plan, explore
+from app.diagnosis.static.fit import Fitted, fit
+from app.diagnosis.static.gross import Rewritten, rewritten
+from app.diagnosis.static.models import held_terms, undone
+from app.diagnosis.static.outcome import Outcome
+from app.diagnosis.static.plain import plain_fit
+from app.diagnosis.static.plan import explore
 from app.diagnosis.static.reading import read_static, renumbered
 from app.diagnosis.static.recording import StaticRecording
 from app.diagnosis.static.robust import outlier_rows
@@ -43,25 +44,16 @@ def diagnose(
     tick = progress or (lambda share, what: None)
     tick(0.0, "reading")
     recording = read_static(table, robot)
-    known = () if model is None else held_terms(model, recording.situation)
+    known = ()
+    if model is not None:
+        recording = undone(model, recording, robot)
+        known = held_terms(model, recording.situation)
     tick(0.05, "fitting base and tool")
-    outcome = search(recording, known, seed, tick)
-    diagnosis = conclude(recording, robot, outcome, known, seed, tick, clock.perf_counter() - began)
+    written = rewritten(recording, robot, known)
+    outcome = search(written, known, seed, tick)
+    diagnosis = conclude(robot, outcome, tick, began)
     tick(1.0, "done")
     return diagnosis
-
-
-def plain_fit(recording: StaticRecording, held: tuple[Term, ...]) -> Fitted:
-    """Base, tool and targets only."""
-    from app.diagnosis.static.cell import pose
-    from app.diagnosis.static.fit import apply_terms
-
-    situation = recording.situation
-    cell = apply_terms(situation, held)
-    posed = pose(situation, cell, np.zeros((recording.reflectors, 3)))
-    setup = starting_setup(recording, posed.hand, posed.frames.flange_positions)
-    first = fit(recording, setup, (), starting_weights(recording), held=held, iterations=30)
-    return fit(recording, first.setup, (), weights_from(first), held=held)
 
 
 def everywhere(recording: StaticRecording, fitted: Fitted) -> Fitted:
@@ -70,17 +62,10 @@ def everywhere(recording: StaticRecording, fitted: Fitted) -> Fitted:
     return fit(recording, fitted.setup, fitted.terms, weights, held=fitted.held, iterations=0)
 
 
-class Outcome:
-    """What the search leaves: the plain fit before, the findings, and the rows set aside."""
-
-    def __init__(self, before: Fitted, plan: Plan, outliers: np.ndarray):
-        self.before, self.plan, self.outliers = before, plan, outliers
-        self.found = plan.found
-
-
-def search(recording: StaticRecording, held, seed: int, tick) -> Outcome:
+def search(written: Rewritten, held, seed: int, tick) -> Outcome:
     """Robust forward search: outliers are judged with the base fit, and again with what was found."""
     rng = np.random.default_rng(seed)
+    recording = written.recording
     kept = np.ones(recording.size, bool)
     before = plain_fit(recording, held)
     out = outlier_rows(before)
@@ -99,4 +84,4 @@ def search(recording: StaticRecording, held, seed: int, tick) -> Outcome:
             break
         out = again
     assert plan is not None
-    return Outcome(before, plan, ~kept)
+    return Outcome(written, before, plan, ~kept)

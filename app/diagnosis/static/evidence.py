@@ -7,6 +7,7 @@ import numpy as np
 from app.diagnosis.result import Evidence
 from app.diagnosis.static.fit import Fitted, fit
 from app.diagnosis.static.noise import starting_weights
+from app.diagnosis.static.plain import plain_fit
 from app.diagnosis.static.recording import StaticRecording
 from app.geometry import Pose
 from app.units import deg
@@ -51,8 +52,12 @@ def _everywhere(recording: StaticRecording, fitted: Fitted) -> Fitted:
     """The fit's state evaluated on all rows, nothing refitted."""
     if fitted.recording.size == recording.size:
         return fitted
+    old = fitted.recording
+    alike = (old.session_count, old.target_names) == (recording.session_count, recording.target_names)
+    setup = fitted.setup if alike else plain_fit(recording, fitted.held).setup
+    steps = 0 if alike else 4
     return fit(
-        recording, fitted.setup, fitted.terms, starting_weights(recording), held=fitted.held, iterations=0
+        recording, setup, fitted.terms, starting_weights(recording), held=fitted.held, iterations=steps
     )
 
 

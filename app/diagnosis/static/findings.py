@@ -16,9 +16,12 @@ from app.units import mm
 
 
 def findings_of(
-    fitted: Fitted, p_values: dict[tuple, float], wanted: tuple[Candidate, ...]
+    fitted: Fitted,
+    p_values: dict[tuple, float],
+    wanted: tuple[Candidate, ...],
+    shadows: frozenset[tuple] = frozenset(),
 ) -> tuple[Finding, ...]:
-    """One finding a term that is not tacit.
+    """One finding a term that is neither tacit nor a shadow.
 
     Args:
         p_values: family-wise, by the term's label.
@@ -28,7 +31,7 @@ def findings_of(
     out = []
     situation = fitted.recording.situation
     for index, term in enumerate(fitted.terms):
-        if term.tacit:
+        if term.tacit or term.label in shadows:
             continue
         where = fitted.slices[index]
         parameters = term.effect.report(situation, term.place, term.values, spread[where, where])

@@ -41,6 +41,20 @@ class Plan:
     as_built: bool
 
     @property
+    def p_values(self) -> dict[tuple, float]:
+        """Family-wise, by the term's label."""
+        named = [t for t in self.found.fitted.terms if not t.tacit]
+        return {t.label: p for t, p in zip(named, self.found.p_values, strict=False)}
+
+    @property
+    def shadows(self) -> frozenset[tuple]:
+        """Labels of findings that sit where structure without a name remains: they may be its shadow."""
+        joints = {d.where.get("joint") for d in (*self.withheld, *([self.doubt] if self.doubt else []))}
+        joints.discard(None)
+        terms = [t for t in self.found.fitted.terms if not t.tacit]
+        return frozenset(t.label for t in terms if t.where.get("joint") in joints)
+
+    @property
     def sound(self) -> bool:
         return self.doubt is None and self.leftover.p_value > LEVEL
 

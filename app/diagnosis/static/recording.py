@@ -7,7 +7,8 @@ from typing import Literal
 
 import numpy as np
 
-from app.diagnosis.static.situation import Situation
+from app.diagnosis.static.situation import Situation, situation_for
+from app.kinematics import RobotModel
 
 Mode = Literal["points", "targets", "length"]
 
@@ -101,6 +102,16 @@ class StaticRecording:
             seen = np.isfinite(self.orientations).all(axis=(1, 2))
             parts.append(np.repeat(np.reshape(seen, (m, 1)), 3, axis=1))
         return np.concatenate(parts, axis=1)
+
+    def with_joints(self, robot: RobotModel, q: np.ndarray) -> StaticRecording:
+        """The same measurements at other joint positions (m, n); drivers that follow from them are computed anew."""
+        old = self.situation
+        measured = old.torque if old.torque_source == "measured" else None
+        new = situation_for(robot, q, sessions=self.session, torque=measured)
+        situation = replace(
+            old, q=q, torque=new.torque, moment=new.moment, approach=new.approach, move=new.move
+        )
+        return replace(self, situation=situation)
 
     def subset(self, keep: np.ndarray) -> StaticRecording:
         """The rows where `keep` (m,) is True; numbers of sessions, poses and targets stay what they were."""

@@ -2,56 +2,88 @@
 
 from __future__ import annotations
 
+import time as clock
+
 import msgspec
 
-from app.diagnosis.result import Diagnosis, Leftover, Verdict
+from app.diagnosis.result import Diagnosis, Finding, Leftover, Verdict
+from app.diagnosis.static.convention_findings import convention_findings
 from app.diagnosis.static.evidence import evidence_of
+from app.diagnosis.static.excess import beyond_noise
 from app.diagnosis.static.findings import findings_of, quality
+from app.diagnosis.static.gross import HOPELESS
 from app.diagnosis.static.library import candidates
 from app.diagnosis.static.models import saved_model
-from app.diagnosis.static.noise import known_noise, noise_of
+from app.diagnosis.static.next_poses import next_poses
+from app.diagnosis.static.noise import known_noise, noise_of, position_rms
+from app.diagnosis.static.outcome import Outcome
 from app.diagnosis.static.plan import Plan
+from app.diagnosis.static.remarks import remarks
 from app.diagnosis.static.shape import LEVEL as WITHHELD
+from app.kinematics import RobotModel
+
+#: Share of a hopeless misfit that findings may leave and still be given.
+_LEAVES = 0.1
 
 
-def conclude(recording, robot, outcome, held, seed, tick, seconds) -> Diagnosis:
-    found = outcome.found.fitted
+def conclude(robot: RobotModel, outcome: Outcome, tick, began: float) -> Diagnosis:
+    """Words for an outcome."""
+    recording, plan = outcome.written.recording, outcome.plan
+    found = plan.found.fitted
     tick(0.9, "writing it down")
-    named = [t for t in found.terms if not t.tacit]
-    p_values = {t.label: p for t, p in zip(named, outcome.found.p_values, strict=False)}
-    findings = findings_of(found, p_values, candidates(found.recording.situation))
-    noise = noise_of(found.recording, known_noise(recording), found)
+    wanted = candidates(found.recording.situation)
+    hopeless = _hopeless(outcome)
+    findings = () if hopeless else findings_of(found, plan.p_values, wanted, plan.shadows)
+    after = quality(found)
+    findings = (*convention_findings(outcome, after), *findings)
+    known = known_noise(recording)
+    noise = noise_of(found.recording, known, found)
+    excess = beyond_noise(found, known)
+    left = hopeless or excess or _structure(plan, findings)
+    spoken = {id(t) for t in found.terms if not t.tacit and t.label not in plan.shadows}
+    model = saved_model(found, robot.name, recording.file, outcome.written, None if not hopeless else spoken)
     return Diagnosis(
         file=recording.file,
         kind=recording.kind,
         robot=robot.name,
         samples=recording.size,
-        verdict=verdict_of(findings, outcome.plan),
+        verdict=verdict_of(findings, left),
         noise=noise,
-        before=quality(outcome.before),
-        after=quality(found),
+        before=quality(outcome.written.before or outcome.before),
+        after=after,
         findings=findings,
         outliers=tuple(int(r) for r in recording.rows[outcome.outliers]),
-        leftover=leftover_said(outcome.plan),
-        next_poses=(),
-        seconds=seconds,
-        notes=recording.notes,
-        model=msgspec.to_builtins(saved_model(found, robot.name, recording.file)),
+        leftover=leftover_said(plan, hopeless or excess),
+        next_poses=next_poses(robot, found, findings, wanted),
+        seconds=clock.perf_counter() - began,
+        notes=(*recording.notes, *remarks(outcome, noise, hopeless, excess)),
+        model=msgspec.to_builtins(model),
         evidence=evidence_of(recording, outcome),
     )
 
 
-def verdict_of(findings, plan: Plan) -> Verdict:
+def _hopeless(outcome: Outcome) -> bool:
+    """True where the measurements and the poses have nothing to do with each other."""
+    before, after = position_rms(outcome.before), position_rms(outcome.plan.found.fitted)
+    return before > HOPELESS and after > _LEAVES * before
+
+
+def _structure(plan: Plan, findings: tuple[Finding, ...]) -> bool:
+    return bool(plan.withheld) or not plan.sound or (plan.as_built and not findings)
+
+
+def verdict_of(findings: tuple[Finding, ...], left: bool) -> Verdict:
     """Clean, named, partly or unexplained."""
-    left = bool(plan.withheld) or not plan.sound or (plan.as_built and not findings)
     if findings:
         return "partly" if left else "named"
     return "unexplained" if left else "clean"
 
 
-def leftover_said(plan: Plan) -> Leftover:
+def leftover_said(plan: Plan, beyond: bool) -> Leftover:
     """What is left over; structure that was fitted without a name counts as such."""
     doubt = plan.withheld[0] if plan.withheld else plan.doubt
     if doubt is not None:
         return Leftover(min(plan.leftover.p_value, WITHHELD), dict(doubt.where))
+    if beyond:
+        return Leftover(min(plan.leftover.p_value, WITHHELD), dict(plan.leftover.where))
     return plan.leftover

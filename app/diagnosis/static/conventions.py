@@ -1,0 +1,95 @@
+"""Conventions a recording may have been written down in by mistake, tried out one by one on a gross misfit."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from app.diagnosis.static.effect import Place
+from app.diagnosis.static.recording import StaticRecording
+from app.kinematics import RobotModel
+from app.units import DEG_PER_RAD, MM_PER_M
+
+SIGN, SWAP, QUARTER, ANGLE_UNIT, LENGTH_UNIT, INVERSE = (float(i) for i in range(6))
+#: A convention must take this share of the misfit away before it is believed.
+FALL = 1.0 / 3.0
+
+
+@dataclass(frozen=True)
+class Convention:
+    """One way the recording may be wrong: what it is and where it is reported to sit."""
+
+    place: Place
+
+    def undone(self, recording: StaticRecording, robot: RobotModel) -> StaticRecording:
+        """The recording as it should have been written."""
+        fixed = self.place.fixed
+        kind = fixed["kind"]
+        if kind == LENGTH_UNIT:
+            points = None if recording.points is None else recording.points * fixed["factor"]
+            lengths = None if recording.lengths is None else recording.lengths * fixed["factor"]
+            return replace(recording, points=points, lengths=lengths)
+        if kind == INVERSE:
+            assert recording.orientations is not None
+            return replace(recording, orientations=np.swapaxes(recording.orientations, 1, 2))
+        return recording.with_joints(robot, converted_joints(recording.q, fixed))
+
+
+def converted_joints(q: np.ndarray, fixed: Mapping[str, float]) -> np.ndarray:
+    """(m, n) joint positions brought to the description's convention; others than joint kinds change nothing."""
+    out = q.copy()
+    kind, j, other = fixed.get("kind"), int(fixed.get("joint", 1)) - 1, int(fixed.get("other", 1)) - 1
+    if kind == SIGN:
+        out[:, j] = -q[:, j]
+    elif kind == SWAP:
+        out[:, [j, other]] = q[:, [other, j]]
+    elif kind == QUARTER:
+        out[:, j] = q[:, j] + fixed["turn"]
+    elif kind == ANGLE_UNIT:
+        out = q * fixed["factor"]
+    return out
+
+
+def title_of(place: Place) -> str:
+    """In words."""
+    fixed = place.fixed
+    kind = fixed["kind"]
+    j, other = int(fixed.get("joint", 0)), int(fixed.get("other", 0))
+    if kind == SIGN:
+        return f"joint {j} counts the other way round"
+    if kind == SWAP:
+        return f"joints {j} and {other} are changed over"
+    if kind == QUARTER:
+        return f"joint {j} counts from another zero, {fixed['turn'] * DEG_PER_RAD:+.0f} deg away"
+    if kind == ANGLE_UNIT:
+        return "radians and degrees are changed over"
+    if kind == LENGTH_UNIT:
+        return "millimetres and metres are changed over"
+    return "the measured orientation is the inverse"
+
+
+def conventions(recording: StaticRecording) -> Iterator[Convention]:
+    """Everything that is tried, likeliest first."""
+    prismatic = recording.situation.chain.prismatic
+    joints = range(1, len(prismatic) + 1)
+    for j in joints:
+        yield Convention(Place({"joint": j}, {"kind": SIGN, "joint": float(j)}))
+    if recording.orientations is not None:
+        yield Convention(Place({"body": "instrument"}, {"kind": INVERSE}))
+    if not prismatic.any():
+        for factor in (DEG_PER_RAD, 1.0 / DEG_PER_RAD):
+            yield Convention(Place({"body": "instrument"}, {"kind": ANGLE_UNIT, "factor": factor}))
+    if recording.mode != "targets":
+        for factor in (MM_PER_M, 1.0 / MM_PER_M):
+            yield Convention(Place({"body": "instrument"}, {"kind": LENGTH_UNIT, "factor": factor}))
+    for j in joints:
+        if not prismatic[j - 1]:
+            for turn in (0.5 * np.pi, -0.5 * np.pi, np.pi):
+                yield Convention(Place({"joint": j}, {"kind": QUARTER, "joint": float(j), "turn": turn}))
+    for j in joints:
+        for other in range(j + 1, len(prismatic) + 1):
+            if prismatic[j - 1] == prismatic[other - 1]:
+                fixed = {"kind": SWAP, "joint": float(j), "other": float(other)}
+                yield Convention(Place({"joint": j, "source_joint": other}, fixed))

@@ -1,0 +1,85 @@
+"""A misfit far beyond any arm's errors: is the recording written in another convention?"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from app.diagnosis.static.conventions import FALL, Convention, conventions
+from app.diagnosis.static.fit import Fitted, Term
+from app.diagnosis.static.noise import known_noise, position_rms
+from app.diagnosis.static.plain import plain_fit
+from app.diagnosis.static.recording import StaticRecording
+from app.errors import TeachframeError
+from app.kinematics import RobotModel
+from app.units import from_mm
+
+#: Misfit [m] from which conventions are tried out, and how many noise levels it must be.
+GROSS = from_mm(2.0)
+GROSS_SIGMA = 20.0
+#: Misfit [m] beyond which names are only given to what explains nearly all of it.
+HOPELESS = from_mm(20.0)
+_MOST = 2
+_ALIKE = 1.5
+
+
+@dataclass(frozen=True, eq=False)
+class Rewritten:
+    """The recording as it should have been written, and what was wrong with it.
+
+    Args:
+        found: conventions undone, in order, each with those that would do as well.
+        before: the plain fit to the recording as it was written; None where nothing was undone.
+    """
+
+    recording: StaticRecording
+    found: tuple[tuple[Convention, tuple[Convention, ...]], ...]
+    before: Fitted | None
+
+
+def rewritten(recording: StaticRecording, robot: RobotModel, held: tuple[Term, ...]) -> Rewritten:
+    """Undoes wrong conventions, the one that helps most first, as long as each takes most of the misfit away."""
+    found: list[tuple[Convention, tuple[Convention, ...]]] = []
+    first = None
+    for _ in range(_MOST):
+        plain = plain_fit(recording, held)
+        first = first or plain
+        before = _misfit(plain)
+        sigma = known_noise(recording).sigma
+        if before < GROSS or (sigma is not None and before < GROSS_SIGMA * sigma):
+            break
+        tried = []
+        for convention in conventions(recording):
+            try:
+                trial = plain_fit(convention.undone(recording, robot), held, quick=True)
+            except (TeachframeError, np.linalg.LinAlgError):
+                continue
+            tried.append((_scaled_misfit(trial, recording), convention))
+        tried.sort(key=lambda pair: pair[0])
+        if not tried or tried[0][0] > FALL * before:
+            break
+        alike = tuple(c for rms, c in tried[1:] if rms < _ALIKE * tried[0][0])
+        found.append((tried[0][1], alike))
+        recording = tried[0][1].undone(recording, robot)
+    return Rewritten(recording, tuple(found), first if found else None)
+
+
+def _misfit(fitted: Fitted) -> float:
+    return position_rms(fitted, corrected=False)
+
+
+def _scaled_misfit(fitted: Fitted, original: StaticRecording) -> float:
+    """A misfit in the units as they should be is compared with one in the units as written."""
+    rms = _misfit(fitted)
+    if (
+        fitted.recording.mode == "points"
+        and fitted.recording.points is not None
+        and original.points is not None
+    ):
+        rms *= float(np.nanstd(original.points) / max(np.nanstd(fitted.recording.points), 1e-12))
+    if original.orientations is not None:
+        angular = fitted.recording.angular
+        turn = float(np.sqrt(np.mean(fitted.residual[:, angular] ** 2)))
+        rms = float(np.hypot(rms, 0.3 * turn))
+    return rms
