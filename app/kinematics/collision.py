@@ -23,7 +23,7 @@ from app.kinematics.solids import outline, robot_shapes, solids
 #: Pairs that may touch: that is what a touch is.
 ALLOWED = (("tool tip", "spike"),)
 _NEAR_AT_HOME = 0.004  # m: links this close at home are neighbours in fact
-_NEAR = 0.05  # m: hulls nearer than this are looked at solid by solid
+_NEAR = 0.02  # m: hulls nearer than this are looked at solid by solid
 _LEAST_MARGIN = 1e-6  # m: at zero, solids with one centre are missed by rounding
 _DISTANCE = coal.DistanceRequest()
 _EXACT = {"box": lambda s: coal.Box(*s), "sphere": lambda s: coal.Sphere(*s)}
@@ -142,7 +142,7 @@ class CollisionWorld:
     def distance(self, q: np.ndarray) -> ContactPair | None:
         """The nearest pair at q (n,) and its distance [m]; None where there is no pair to look at.
 
-        Farther than 50 mm it is the distance of hulls, a little less than that of what is drawn. Pairs are
+        Farther than 20 mm it is the distance of hulls, a little less than that of what is drawn. Pairs are
         taken by the gap between the spheres around them, and no further than that can still matter.
         """
         if not self._pairs:
