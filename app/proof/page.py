@@ -13,13 +13,14 @@ from app.proof.table import aim_text
 
 STYLE = """
 :root { --ink: #1c2430; --soft: #5c6674; --line: #d8dde4; --good: #1d7f4e; --bad: #b3261e; --accent: #2a62b8; }
-body { font: 15px/1.5 system-ui, sans-serif; color: var(--ink); max-width: 1060px; margin: 2rem auto; padding: 0 1rem; }
+body { font: 15px/1.5 system-ui, sans-serif; color: var(--ink); max-width: 1180px; margin: 2rem auto; padding: 0 1rem; }
 h1 { font-size: 1.7rem; margin-bottom: .2rem; } h2 { margin-top: 2.4rem; font-size: 1.2rem; }
 p.lead, td.soft, .soft { color: var(--soft); } code { background: #f2f4f7; padding: .1em .35em; border-radius: 3px; }
 table { border-collapse: collapse; width: 100%; font-variant-numeric: tabular-nums; }
 th, td { padding: .3rem .6rem; border-bottom: 1px solid var(--line); text-align: left; vertical-align: top; }
 th { font-weight: 600; font-size: .85rem; color: var(--soft); } td.n, th.n { text-align: right; }
 .met { color: var(--good); font-weight: 600; } .missed { color: var(--bad); font-weight: 600; }
+.keep { white-space: nowrap; }
 table.heat td, table.heat th { padding: .15rem .3rem; font-size: .74rem; border: 1px solid #fff; }
 table.heat th.turn { writing-mode: vertical-rl; transform: rotate(180deg); text-align: left; vertical-align: bottom; }
 table.heat td { text-align: center; min-width: 1.4rem; } .scroll { overflow-x: auto; }
@@ -71,7 +72,8 @@ def _head(proof: Proof) -> str:
 
 def _lines(proof: Proof) -> str:
     rows = [
-        "<tr><th>what</th><th class=n>cases</th><th class=n>rate</th><th>95% interval</th><th>aim</th><th></th></tr>"
+        "<tr><th>what</th><th class=n>cases</th><th class=n>rate</th><th>95% interval</th><th></th><th>aim</th>"
+        "<th></th></tr>"
     ]
     for line in proof.score.lines:
         mark = {True: "<span class=met>met</span>", False: "<span class=missed>missed</span>", None: ""}[
@@ -79,8 +81,9 @@ def _lines(proof: Proof) -> str:
         ]
         rows.append(
             f"<tr><td>{escape(line.title)}</td><td class=n>{line.rate.cases}</td>"
-            f"<td class=n>{_percent(line.rate)}</td><td>{interval_bar(line.rate, line.aim)}</td>"
-            f"<td class=soft>{aim_text(line)}</td><td>{mark}</td></tr>"
+            f"<td class=n>{_percent(line.rate)}</td><td class='soft keep'>{_span(line.rate)}</td>"
+            f"<td class=keep>{interval_bar(line.rate, line.aim)}</td>"
+            f"<td class='soft keep'>{aim_text(line)}</td><td>{mark}</td></tr>"
         )
     return f"<table>{''.join(rows)}</table>"
 
@@ -97,7 +100,7 @@ def _confusion(confusion) -> str:
         for column in columns:
             count = said.get(column, 0)
             share = count / total
-            right = column == true or (true == "(nothing)" and column == "(clean)")
+            right = column == _right(true)
             shade = (
                 f"background: rgba(42, 98, 184, {0.08 + 0.92 * share:.2f})"
                 if count
@@ -108,6 +111,13 @@ def _confusion(confusion) -> str:
             cells.append(f'<td style="{shade}{ink}{frame}">{count or ""}</td>')
         rows.append(f"<tr><th>{escape(true)}</th><td class=soft>{total}</td>{''.join(cells)}</tr>")
     return f"<div class=scroll><table class=heat>{''.join(rows)}</table></div>"
+
+
+def _right(true: str) -> str:
+    """What should have been said of a row."""
+    if true in ("(nothing)", "(too faint)"):
+        return "(clean)"
+    return "(unexplained)" if true.startswith("(") else true
 
 
 def _heldout(proof: Proof) -> str:
@@ -167,6 +177,11 @@ def _cell(value: object) -> str:
     if isinstance(value, dict):
         return escape(", ".join(f"{k}={v}" for k, v in value.items()))
     return escape(str(value))
+
+
+def _span(rate: Rate) -> str:
+    low, high = rate.interval
+    return f"{low:.1%} to {high:.1%}"
 
 
 def _percent(rate: Rate) -> str:

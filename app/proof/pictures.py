@@ -25,7 +25,6 @@ def interval_bar(rate: Rate, aim: float | None) -> str:
         f'<line x1="0" x2="{WIDE}" y1="8" y2="8" stroke="#d8dde4"/>'
         f'<line x1="{low * WIDE:.1f}" x2="{high * WIDE:.1f}" y1="8" y2="8" stroke="#2a62b8" stroke-width="4"/>'
         f'{tick}<circle cx="{value * WIDE:.1f}" cy="8" r="4.5" fill="#2a62b8"/></svg>'
-        f' <span class="soft">{low:.1%} to {high:.1%}</span>'
     )
 
 

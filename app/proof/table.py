@@ -8,14 +8,14 @@ from app.proof.scoring import heldout_summary
 
 def table(proof: Proof) -> str:
     """Lines of text: every rate with its interval beside its aim."""
-    rows = [f"{'':<58}{'cases':>6}{'rate':>8}   {'95% interval':<16}{'aim':<14}"]
+    rows = [f"{'':<68}{'cases':>6}{'rate':>8}   {'95% interval':<16}{'aim':<14}"]
     for line in proof.score.lines:
         low, high = line.rate.interval
         value = line.rate.value or 0.0
         mark = {True: "met", False: "MISSED", None: ""}[line.met]
         span = f"{low:.1%} to {high:.1%}"
         rows.append(
-            f"{line.title:<58}{line.rate.cases:>6}{value:>8.1%}   {span:<16}  {aim_text(line):<12}{mark}".rstrip()
+            f"{line.title:<68}{line.rate.cases:>6}{value:>8.1%}   {span:<16}  {aim_text(line):<12}{mark}".rstrip()
         )
     held = heldout_summary([v for _, v in proof.score.heldout])
     if held:
