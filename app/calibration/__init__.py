@@ -2,6 +2,7 @@
 
     captures.py     what a wizard records: Step, Capture, Mode
     points.py       the same from a points file
+    sockets.py      one tool, many touched points: leave-one-placement-out
     result.py       ToolCalibration: tool frame, residuals, covariance, warnings
     tool.py         captures -> ToolCalibration, the one road every mode takes
     orientation.py  the tool's axes from strokes and sightings

@@ -21,6 +21,9 @@ from app.calibration.tool import calibrate
 from app.errors import DegenerateGeometryError, InputError, UnknownNameError
 from app.units import mm
 
+#: Header key `# known_tool_mm`: the tool that touches first in the mode `reference`.
+KNOWN = "known_tool"
+
 
 @dataclass(frozen=True, eq=False)
 class Solved:
@@ -57,7 +60,10 @@ def solve_file(
     points = read_points(path)
     try:
         if mode_key is not None:
-            result = mode(mode_key).solve(points.captures, **(options or {}))
+            given = {"context": {"points": points}, **(options or {})}
+            if KNOWN in points.references:
+                given.setdefault("known_tool", points.references[KNOWN])
+            result = mode(mode_key).solve(points.captures, **given)
         else:
             result = calibrate(
                 points.captures,
@@ -75,7 +81,8 @@ def solve_file(
             error.problem, file=points.path, row=error.row, column=error.column, expected=error.expected
         ) from None
     effect = rounding(points, result)
-    gaps = tuple(gap_to(name, stated, result, effect) for name, stated in points.references.items())
+    stated = {name: point for name, point in points.references.items() if name != KNOWN}
+    gaps = tuple(gap_to(name, point, result, effect) for name, point in stated.items())
     left = leave_one_out(points.captures) if len(result.residual_vectors) else ()
     return Solved(points, result, effect, gaps, left, light(result))
 

@@ -13,7 +13,6 @@ import numpy as np
 from app.calibration.points import Points, Written
 from app.calibration.result import ToolCalibration
 
-
 #: Touches spread wider than this are believed, however coarse the digits [rad].
 LARGEST_LEAST = 0.01
 
@@ -41,7 +40,10 @@ class Rounding:
 def rounding(points: Points, result: ToolCalibration) -> Rounding:
     """Propagates the step of every column's last digit to the tool point."""
     written = points.written
-    rows = [i for i, c in enumerate(points.captures) if "touch" in c.roles]
+    role = "plane" if any("plane" in c.roles for c in points.captures) else "touch"
+    rows = [i for i, c in enumerate(points.captures) if role in c.roles]
+    if len(rows) != len(result.gains):  # a mode that the touches have no part in
+        return Rounding((), np.zeros((3, 3)), 0.0)
     values = written.values[rows]
     shares = np.zeros((len(written.steps), 3, 3))
     touch = 0.0

@@ -20,7 +20,7 @@ class Command:
     """
 
     files: Annotated[tuple[Path, ...], tyro.conf.Positional, tyro.conf.arg(metavar="FILE...")]
-    """Points files (# kind: points)."""
+    """Points files (# kind: points), or touch recordings (# kind: touch) of many points with one tool."""
     method: Literal["joint", "pairwise", "robust"] = "joint"
     """joint: order-free. pairwise: the estimator of Xiong 2012. robust: far-off touches count less."""
     orientation: Literal["default", "z", "zx", "xy"] | None = None
@@ -37,9 +37,11 @@ class Command:
         import msgspec
 
         from app.calibration.report import report
+        from app.calibration.sockets import sockets_page, solve_sockets
         from app.calibration.solving import solve_file, to_json
         from app.calibration.text import page
         from app.errors import InputError, TeachframeError
+        from app.recordings import read_table
 
         if not self.files:
             raise InputError("no points file given", expected="teachframe solve FILE…")
@@ -48,6 +50,15 @@ class Command:
         code = 0
         for number, path in enumerate(self.files):
             try:
+                if self.mode is None and self.report is None and (table := read_table(path)).kind == "touch":
+                    found = solve_sockets(table)
+                    text = (
+                        msgspec.json.encode(to_json(found.result)).decode()
+                        if self.json
+                        else sockets_page(found)
+                    )
+                    print(text, flush=True)
+                    continue
                 solved = solve_file(
                     path, method=self.method, orientation=self.orientation, mode_key=self.mode
                 )
