@@ -18,6 +18,8 @@ _UPRIGHT = 0.3  # share of the reach: a flange nearer than this to axis 1 draws 
 _THICK = 0.045  # share of the reach: radius of an arm's links
 _NEST = from_mm(60.0)  # the reflector's centre in front of the flange
 _ASIDE = from_mm(40.0)
+_ABOVE = from_mm(150.0)  # an arm keeps this far from the floor
+_TRIED = (from_deg(np.array([0.0, -60.0, -30.0, 30.0, 60.0])), from_deg(np.array([-45.0, -25.0, 25.0, 45.0])))
 
 
 @dataclass(frozen=True, eq=False)
@@ -116,8 +118,12 @@ class TrackerCell:
             q[axis - 1] = angle
         return q
 
+    def _touches_floor(self, arm: int, q: np.ndarray) -> bool:
+        capsules = self.arms[arm].capsules(q, "")[1:]
+        return any(min(c.start[2], c.end[2]) < c.radius for c in capsules)
+
     def visible_angles(self, arm: int, axis: int, step: float, widest: float) -> np.ndarray:
-        """Angles of one axis [rad] the tracker sees, without a gap around the zero position, `step` apart."""
+        """Angles of one axis [rad] that the tracker sees and the floor allows, without a gap, `step` apart."""
         robot, rest = self.arms[arm].robot, self.arms[arm].rest[axis - 1]
         postures = [self.arms[0].rest, self.arms[1].rest]
         seen = []
@@ -128,6 +134,8 @@ class TrackerCell:
                 if not robot.lower[axis - 1] <= angle <= robot.upper[axis - 1]:
                     break
                 postures[arm] = self.posture(arm, axis, angle)
+                if self._touches_floor(arm, postures[arm]):
+                    break
                 if not self.look(arm, (postures[0], postures[1]), None).seen:
                     break
                 count += 1
@@ -145,6 +153,19 @@ def zero_position(robot: RobotModel) -> np.ndarray:
             return q
     q[1 : min(4, len(q))] += np.array([0.7, 0.5, 0.5])[: len(q) - 1]
     return np.clip(q, robot.lower, robot.upper)
+
+
+def pedestal(robot: RobotModel, rest: np.ndarray) -> float:
+    """How high an arm must stand for axis 2 to turn 50 degrees either way above the floor [m]."""
+    lowest = _ABOVE
+    for turn in from_deg(np.array([-50.0, -25.0, 0.0, 25.0, 50.0])):
+        q = rest.copy()
+        q[1] = np.clip(q[1] + turn, robot.lower[1], robot.upper[1])
+        frames = robot.chain.frames(q[None])
+        lowest = min(
+            lowest, float(frames.flange_positions[0, 2]), float(frames.joint_positions[0, 1:, 2].min())
+        )
+    return min(_ABOVE - lowest + _ASIDE * 5, 0.8 * robot.reach) if lowest < _ABOVE else 0.0
 
 
 def make_cell(first: str, second: str, seed: int) -> TrackerCell:
@@ -166,19 +187,45 @@ def make_cell(first: str, second: str, seed: int) -> TrackerCell:
     arms = []
     for robot, place, turn in zip(robots, places, turns, strict=True):
         lean = Pose.exp(np.concatenate([place, rng.normal(0, from_deg(0.1), 3)]))
-        base = lean @ Pose.of(rot_z(turn))
         rest = zero_position(robot)
-        arms.append(_with_nest(robot, base, rest, tracker.position))
-    nests = np.array([[gap / 2, 1.0, 0.05], [-0.6, -1.3, 0.05], [gap + 0.6, -1.3, 0.4], [gap / 2, -1.2, 0.9]])
+        ahead = robot.forward(rest).position  # some makers' arms point along -X at zero
+        lean = Pose.of(position=np.array([0.0, 0.0, pedestal(robot, rest)])) @ lean
+        base = lean @ Pose.of(rot_z(turn - float(np.arctan2(ahead[1], ahead[0]))))
+        arms.append(_with_nest(robot, base, rest, tracker))
+    nests = np.array(
+        [[gap / 2 - 0.3, 1.3, 0.05], [-0.6, -1.3, 0.05], [gap + 0.6, -1.3, 0.4], [gap / 2 + 0.5, 0.8, 0.5]]
+    )
     return TrackerCell((arms[0], arms[1]), LaserTracker(tracker), nests + rng.normal(0, 0.02, (4, 3)))
 
 
-def _with_nest(robot: RobotModel, base: Pose, rest: np.ndarray, tracker: np.ndarray) -> CellArm:
-    """The nest is put on the flange's side towards the tracker, and the reflector looks there."""
+def _with_nest(robot: RobotModel, base: Pose, rest: np.ndarray, tracker: Pose) -> CellArm:
+    """The nest goes where the tracker sees it longest while axes 1 and 2 turn; the reflector looks at the tracker."""
     flange = base @ robot.forward(rest)
-    towards = flange.rotation.T @ (tracker - flange.position)
+    towards = flange.rotation.T @ (tracker.position - flange.position)
     towards = towards / np.linalg.norm(towards)
-    side = towards - np.array([0.0, 0.0, towards[2]])
-    side = side / max(float(np.linalg.norm(side)), 1e-9)
-    offset = side * (_ASIDE + _THICK * robot.reach) + np.array([0.0, 0.0, _NEST])
-    return CellArm(robot, base, offset, towards, rest)
+    instrument = LaserTracker(tracker)
+    postures = []
+    for axis, angles in enumerate(_TRIED, 1):
+        for angle in angles:
+            q = rest.copy()
+            q[axis - 1] += angle
+            if robot.lower[axis - 1] <= q[axis - 1] <= robot.upper[axis - 1]:
+                postures.append(q)
+    best: tuple[float, CellArm] | None = None
+    for far in (1.0, 2.0):
+        for turn in np.arange(8) * np.pi / 4:
+            side = np.array([np.cos(turn), np.sin(turn), 0.0])
+            offset = side * far * (_ASIDE + _THICK * robot.reach) + np.array([0.0, 0.0, _NEST])
+            arm = CellArm(robot, base, offset, towards, rest)
+            seen = 0
+            for q in postures:
+                at = arm.flange(q)
+                p, facing = at.apply(offset), at.rotation @ towards
+                seen += instrument.look(p, facing, arm.capsules(q, ""), None).seen
+            value = (
+                seen + 0.3 * float(side @ towards) - 0.2 * far
+            )  # among equals the near one, on the tracker's side
+            if best is None or value > best[0]:
+                best = (value, arm)
+    assert best is not None
+    return best[1]

@@ -1,0 +1,185 @@
+"""One run of the two-robot procedure: the cell, where the wizard stands, what is drawn of it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+
+import numpy as np
+import viser
+
+from app.calibration.base.relation import Relation
+from app.calibration.base.result import BaseCalibration
+from app.calibration.base.wizard import NESTS, TURN, BaseWizard, Step, steps
+from app.geometry import Pose
+from app.geometry.circle import fit_axis
+from app.pendant.motion import move, pause
+from app.pendant.scene.tracker_cell import CellDrawing
+from app.simulation.tracker import Sight
+from app.simulation.tracker_cell import TrackerCell
+from app.simulation.tracker_meeting import Meeting, meet
+from app.simulation.tracker_procedure import WIDEST, senses
+
+_REST = 0.12  # seconds the arm stands at each point
+_PUSH = Pose.exp(np.array([0.015, -0.012, 0.0, 0.0, 0.0, 0.006]))
+
+
+class Run:
+    """A cell that is being measured.
+
+    Args:
+        scene: the browser's.
+        cell: with its hidden truth.
+        nests: fixed points are part of the procedure.
+        pushed: somebody pushes the tracker before robot 2, and tells nobody.
+        seed: of the tracker's noise.
+    """
+
+    def __init__(self, scene: viser.SceneApi, cell: TrackerCell, *, nests: bool, pushed: bool, seed: int):
+        self.cell = self.now = cell
+        self.wizard = BaseWizard(steps(2, nests))
+        self.bases: tuple[BaseCalibration, ...] = ()
+        self.relation: Relation | None = None
+        self.meeting: Meeting | None = None
+        self.drawing = CellDrawing(scene, cell)
+        self._pushed, self._rng = pushed, np.random.default_rng(seed)
+        self.postures = [arm.rest.copy() for arm in cell.arms]
+        self._stations = [cell.tracker.T_world_tracker] * 2
+
+    # What the arms and the beam do ------------------------------------------------------------------------
+
+    def pose(self, arm: int, q: np.ndarray) -> None:
+        """Arm 0 or 1 at q; the beam follows its reflector."""
+        self.postures[arm] = q
+        self.drawing.arms[arm].set(q)
+        self.aim(arm)
+
+    def aim(self, arm: int) -> Sight:
+        """The beam on the reflector of an arm, without measuring."""
+        sight = self.now.look(arm, (self.postures[0], self.postures[1]), None)
+        flange = self.now.arms[arm].flange(self.postures[arm])
+        self.drawing.beam(flange.apply(self.now.arms[arm].reflector), sight.seen)
+        return sight
+
+    def turn_to(self, angle: float) -> Sight:
+        """The axis of the step at hand at `angle` [rad], the other axes at zero."""
+        step = self._step()
+        arm = step.robot - 1
+        self.pose(arm, self.now.posture(arm, step.axis, angle))
+        return self.aim(arm)
+
+    def _step(self) -> Step:
+        step = self.wizard.step
+        assert step is not None
+        return step
+
+    # Measuring --------------------------------------------------------------------------------------------
+
+    def measure(self) -> Sight:
+        """The point at hand into the wizard; what was not seen changes nothing."""
+        step = self._step()
+        arm = step.robot - 1
+        if step.kind == NESTS:
+            number = len(self.wizard.of(step.key)) % len(self.now.nests)
+            sight = self.now.nest(number, self._rng)
+            self.drawing.beam(self.now.nests[number], sight.seen)
+            if sight.point is not None:
+                self.wizard = self.wizard.record(sight.point, name=f"N{number + 1}", sigma=sight.sigma)
+            return sight
+        sight = self.now.look(arm, (self.postures[0], self.postures[1]), self._rng)
+        if sight.point is not None:
+            angle = float(self.postures[arm][step.axis - 1]) if step.kind == TURN else 0.0
+            self.wizard = self.wizard.record(sight.point, angle=angle, sigma=sight.sigma)
+            self._draw_points(step)
+        return sight
+
+    def by_itself(self, every: float, told: Callable[[], None]) -> Iterator[None]:
+        """The step at hand, measured and left; `told` is called after every point.
+
+        Args:
+            every: [rad] between two points of an arc.
+        """
+        step = self._step()
+        arm = step.robot - 1
+        if step.kind == NESTS:
+            for _ in range(len(self.now.nests) - len(self.wizard.of(step.key))):
+                self.measure()
+                told()
+                yield from pause(2 * _REST)
+        else:
+            angles = [float(self.now.arms[arm].rest[0])]
+            if step.kind == TURN:
+                angles = list(self.now.visible_angles(arm, step.axis, every, WIDEST[step.axis - 1]))
+            for angle in angles:
+                goal = self.now.posture(arm, step.axis, angle)
+                yield from move(self.postures[arm].copy(), goal, lambda q: self.pose(arm, q))
+                self.measure()
+                told()
+                yield from pause(_REST)
+        self.leave()
+        if step.kind == TURN:  # back to zero, as the document has it
+            home = self.now.arms[arm].rest
+            yield from move(self.postures[arm].copy(), home, lambda q: self.pose(arm, q))
+        told()
+
+    def leave(self) -> None:
+        """On to the next step; what the step at hand gave is drawn.
+
+        Raises:
+            ActionRefusedError: it has too few points.
+        """
+        step = self._step()
+        self.wizard = self.wizard.advance()
+        if step.kind == TURN:
+            self._draw_circle(step)
+        after = self.wizard.step
+        if after is not None and after.robot == 2 and step.robot == 1:
+            if self._pushed:
+                self.now = self.cell.moved(_PUSH)
+                self.drawing.cell = self.now
+                self.drawing.stand(self.now.tracker.T_world_tracker)
+            self._stations[1] = self.now.tracker.T_world_tracker
+
+    def solve(self) -> Relation | None:
+        """Bases and relation, drawn.
+
+        Raises:
+            ActionRefusedError: steps are missing.
+        """
+        self.bases, self.relation = self.wizard.solve(
+            tuple(a.robot for a in self.cell.arms), senses(self.cell)
+        )
+        self.drawing.beam(None)
+        for k, base in enumerate(self.bases, 1):
+            station = self._stations[k - 1]
+            found = station @ base.T_tracker_base
+            second = base.second.axes
+            t = float((base.T_tracker_base.position - second.point) @ second.direction)
+            foot = station.apply(second.point + t * second.direction)
+            self.drawing.frame(f"base{k}", found, f"base {k}", foot, 0.28 * self.cell.arms[k - 1].robot.reach)
+        return self.relation
+
+    def meet(self, done: Callable[[Meeting], None]) -> Iterator[None]:
+        """Both tools go to one point by the relation found."""
+        assert self.relation is not None
+        meeting = meet(self.cell, self.relation)
+        start = [q.copy() for q in self.postures]
+
+        def show(share: np.ndarray) -> None:
+            for k in (0, 1):
+                self.postures[k] = start[k] + (meeting.postures[k] - start[k]) * share[0]
+                self.drawing.arms[k].set(self.postures[k])
+
+        yield from move(np.zeros(1), np.full(1, 1.0), show)
+        self.meeting = meeting
+        done(meeting)
+
+    # Drawing ----------------------------------------------------------------------------------------------
+
+    def _draw_points(self, step: Step) -> None:
+        points = np.array([r.point for r in self.wizard.of(step.key)])
+        self.drawing.points(step.key, self._stations[step.robot - 1].apply(points), step.axis)
+
+    def _draw_circle(self, step: Step) -> None:
+        points = np.array([r.point for r in self.wizard.of(step.key)])
+        length = 0.9 * self.cell.arms[step.robot - 1].robot.reach
+        self.drawing.circle(step.key, fit_axis(points), step.axis, self._stations[step.robot - 1], length)
