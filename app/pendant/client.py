@@ -16,6 +16,7 @@ from app.geometry import Pose
 from app.kinematics import IkResult, RobotModel, solve_ik
 from app.pendant import motion
 from app.pendant.dragging import Dragging
+from app.pendant.jogging import Jogging
 from app.pendant.layout import Layout
 from app.pendant.loaded import with_touched_point
 from app.pendant.page import Page
@@ -47,7 +48,7 @@ class Pendant:
         self.language, self.vocabulary, self.dark, self.convention = FALLBACK, "", False, "ZYX"
         self.log: list[tuple[float, str, str]] = []
         self.open = True
-        self.dragging = Dragging(self)
+        self.dragging, self.jogging = Dragging(self), Jogging(self)
         self._numbers_at = 0.0
         self.q = np.array(session.state.q)
         self._source: object = None
@@ -130,15 +131,17 @@ class Pendant:
 
     def go(self, q: np.ndarray, then: Job | None = None) -> None:
         """The arm moves to q (n,), visibly; `then` is done at the end."""
-        self.worker.animate("move", self._travel([np.asarray(q, float)], lambda _: then and then()))
-        self.page.numbers()
+        self.tour([np.asarray(q, float)], lambda number: then() if then and number < 0 else None, 0.0)
 
     def tour(self, stops: list[np.ndarray], arrived: Callable[[int], object], rest: float = 0.5) -> None:
         """The arm goes through poses; `arrived` hears the number of each, and once more -1 at the end."""
+        self.jogging.must_not_be_stopped()
         self.worker.animate("move", self._travel(stops, arrived, rest))
+        self.page.numbers()
 
     def place(self, q: np.ndarray) -> None:
         """The arm stands at q (n,) at once, within its limits."""
+        self.jogging.must_not_be_stopped()
         self.worker.halt("move")
         self.show(np.clip(q, self.model.lower, self.model.upper))
         self.worker.animate("settle", self._settle_later())
@@ -276,14 +279,13 @@ class Pendant:
         self.page.refresh(self.session.state)  # what was entered goes back to what is so
 
     def _travel(
-        self, stops: list[np.ndarray], arrived: Callable[[int], object], rest: float = 0.0
+        self, stops: list[np.ndarray], arrived: Callable[[int], object], rest: float
     ) -> Iterator[None]:
         for number, stop in enumerate(stops):
             yield from motion.move(self.q.copy(), stop, self.show)
             self.page.numbers()
-            if len(stops) > 1:
-                arrived(number)
-                yield from motion.pause(rest)
+            arrived(number)
+            yield from motion.pause(rest)
         self.settle()
         self.post(lambda: arrived(-1))  # as a job of its own: by then the motion is over
 

@@ -34,6 +34,7 @@ class Dragging:
     def follow(self, target: Pose) -> None:
         """The arm goes as near to `target`, T_base_tool, as it can."""
         pendant = self._pendant
+        pendant.jogging.must_not_be_stopped()
         pendant.worker.halt("move")
         result = pendant.solve(target)
         pendant.show(result.q)
@@ -47,8 +48,10 @@ class Dragging:
 
     def _end(self, target: Pose) -> None:
         pendant = self._pendant
-        self.follow(target)
-        self._told = ""
-        pendant.stage.handle.place(pendant.world.tip(pendant.q))
-        pendant.settle()
-        pendant.page.numbers()
+        try:
+            self.follow(target)
+        finally:  # let go of in any case: the handle stands where the tool is
+            self._told = ""
+            pendant.stage.handle.place(pendant.world.tip(pendant.q))
+            pendant.settle()
+            pendant.page.numbers()

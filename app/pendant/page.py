@@ -58,13 +58,14 @@ class Page:
         distance = pendant.world.distance(pendant.q)
         touching = distance <= pendant.world.contact_distance
         far = t("status.touching") if touching else t("status.distance", mm=f"{mm(distance):.1f}")
-        moving = pendant.worker.running("move")
+        moving = pendant.worker.running("move") or pendant.worker.running("jog")
+        how = "stopped" if pendant.jogging.stopped else "moving" if moving else "standing"
+        colour = {"stopped": "red", "moving": "yellow", "standing": "green"}[how]
         tool = state.tool
         items = [
+            html.item(t(f"status.{how}"), testid="status-state", colour=colour, strong=True),
             html.item(
-                t("status.moving" if moving else "status.standing"),
-                colour="yellow" if moving else "green",
-                strong=True,
+                t("status.enabled" if pendant.jogging.enabled else "status.locked"), testid="status-enable"
             ),
             html.item(pendant.model.title, testid="status-robot"),
             html.item(

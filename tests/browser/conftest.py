@@ -23,15 +23,21 @@ FLAGS = [
 SCREEN = {"width": 1280, "height": 800}
 
 
+def chromium_path():
+    """The system's Chromium, or None."""
+    found = (shutil.which(name) for name in ("chromium", "chromium-browser", "google-chrome"))
+    return next((path for path in found if path), None)
+
+
 @pytest.fixture(scope="session")
 def chromium():
     from playwright.sync_api import sync_playwright
 
-    found = [p for n in ("chromium", "chromium-browser", "google-chrome") if (p := shutil.which(n))]
-    if not found:
+    path = chromium_path()
+    if path is None:
         pytest.fail("no Chromium: `make test` installs it as root; elsewhere install the package `chromium`")
     with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=found[0], args=FLAGS)
+        browser = playwright.chromium.launch(executable_path=path, args=FLAGS)
         yield browser
         browser.close()
 

@@ -10,7 +10,7 @@ import pytest
 from app.kinematics import load_robot
 from app.pendant.screens._compare import plots
 from app.pendant.screens._compare.ghost import joints_for_point
-from app.pendant.screens._compare.hidden import FAULTS, KINDS, make_hidden
+from app.pendant.screens._compare.hidden import FAULTS, KINDS, MOTION_FAULTS, make_hidden
 from app.pendant.screens._compare.kept import _MOST, kept_for
 from app.pendant.screens._compare.loaded import load, search
 from tests.diagnosis.report.cases import motion_case, static_case
@@ -42,7 +42,7 @@ def test_the_ghosts_tool_stands_where_it_is_wanted_with_the_smallest_move():
 def test_a_hidden_fault_leaves_nothing_of_itself_beside_the_recording(tmp_path, kind):
     path, truth = make_hidden("ur10e", kind, tmp_path, 11)
     assert [p.name for p in tmp_path.iterdir()] == [path.name]
-    assert len(truth) == 1 and truth[0]["effect"] in FAULTS
+    assert len(truth) == 1 and truth[0]["effect"] in (MOTION_FAULTS if kind == "motion" else FAULTS)
     assert truth[0]["effect"] not in path.read_text(encoding="utf-8")
 
 
