@@ -19,9 +19,19 @@ FAULTS = (
     "backlash",
     "joint_slip",
 )
-KINDS = ("tracker", "touch")
+#: Faults that half a minute of joint torques can show.
+MOTION_FAULTS = (
+    "coulomb_friction",
+    "viscous_friction",
+    "contact",
+    "payload_change",
+    "torque_ripple",
+    "rotor_inertia",
+    "friction_asymmetry",
+)
+KINDS = ("tracker", "touch", "motion")
 _NOISE = 1.5e-4  # m
-_ROWS = 60
+_ROWS, _SAMPLES = 60, 3000
 
 
 def make_hidden(robot: str, kind: str, folder: Path, seed: int) -> tuple[Path, tuple[dict, ...]]:
@@ -35,14 +45,24 @@ def make_hidden(robot: str, kind: str, folder: Path, seed: int) -> tuple[Path, t
     Returns:
         The recording, and what is wrong in it: dictionaries with `effect` and `where`.
     """
-    from app.proof.generator.simulate import simulate_static
-    from app.proof.generator.static.making import Plan
-
     rng = np.random.default_rng(seed)
-    fault = str(rng.choice(FAULTS))
+    fault = str(rng.choice(MOTION_FAULTS if kind == "motion" else FAULTS))
     out = folder / f"cell_{seed}.csv"
-    plan = Plan(kind=kind, samples=_ROWS, noise=_NOISE)
-    truth = simulate_static(robot, plan, [fault], seed, out)
+    truth = _log(robot, fault, seed, out) if kind == "motion" else _poses(robot, kind, fault, seed, out)
     said = json.loads(truth.read_text(encoding="utf-8"))
     truth.unlink()
     return out, tuple({"effect": e["effect"], "where": e["where"]} for e in said["effects"])
+
+
+def _poses(robot: str, kind: str, fault: str, seed: int, out: Path) -> Path:
+    from app.proof.generator.simulate import simulate_static
+    from app.proof.generator.static.making import Plan
+
+    return simulate_static(robot, Plan(kind=kind, samples=_ROWS, noise=_NOISE), [fault], seed, out)
+
+
+def _log(robot: str, fault: str, seed: int, out: Path) -> Path:
+    from app.proof.generator.motion.making import MotionPlan
+    from app.proof.generator.motion.simulate import simulate_motion
+
+    return simulate_motion(robot, MotionPlan(samples=_SAMPLES), [fault], seed, out)
