@@ -8,6 +8,8 @@ import numpy as np
 
 from app.proof.generator.effects.term import Size, Term, pick
 
+_START_RAD = 0.001  # any size: the draw is scaled to the wanted displacement afterwards
+
 
 @dataclass(frozen=True)
 class GearEccentricity:
@@ -19,7 +21,7 @@ class GearEccentricity:
         turning = [j + 1 for j in range(cell.arm.n) if not cell.arm.slides[j]]
         joint = pick(rng, asked, "joint", turning, self.key)
         phase = rng.uniform(0, 2 * np.pi)
-        values = {"sin": 1e-3 * float(np.cos(phase)), "cos": 1e-3 * float(np.sin(phase))}
+        values = {"sin": _START_RAD * float(np.cos(phase)), "cos": _START_RAD * float(np.sin(phase))}
         return Term(self.key, {"joint": joint, "driver": "own_angle"}, values)
 
     def add(self, cell, term, world):

@@ -9,6 +9,7 @@ import numpy as np
 from app.proof.generator.effects.static._step import after, step_row
 from app.proof.generator.effects.term import Size, Term
 from app.proof.generator.rotations import random_direction
+from app.units import from_mm
 
 
 @dataclass(frozen=True)
@@ -19,7 +20,7 @@ class ToolSlip:
 
     def draw(self, rng, cell, asked):
         row = step_row(rng, cell, asked, self.key)
-        step = 1e-3 * random_direction(rng)
+        step = from_mm(random_direction(rng))
         values = {name: float(x) for name, x in zip(("dx", "dy", "dz"), step, strict=True)}
         return Term(self.key, {"body": "tool", "from_row": row}, values)
 
