@@ -6,6 +6,7 @@ import pytest
 from app import catalog
 from app.diagnosis.effects.motion._state import State
 from app.diagnosis.static.cell import nominal_cell, pose
+from app.diagnosis.static.conventions import QUARTER, SIGN, SWAP
 from app.diagnosis.static.effect import Place
 from app.diagnosis.static.situation import situation_for
 from app.kinematics import load_robot
@@ -37,6 +38,16 @@ THEIRS_MOTION = catalog.members("app.diagnosis.effects.motion", "EFFECT")
 def _place_and_values(effect, situation, term):
     """The library's place and values for a term of the generator."""
     given = dict(term.parameters)
+    if term.effect == "wrong_convention":
+        j = float(term.where["joint"])
+        kind = SWAP if "source_joint" in term.where else QUARTER if given else SIGN
+        fixed = {
+            "kind": kind,
+            "joint": j,
+            "other": term.where.get("source_joint", 1.0),
+            "turn": given.get("turn", 0.0),
+        }
+        return Place(term.where, fixed), np.zeros(0)
     if term.effect == "payload":
         given |= {f"moment_{c}": given["mass"] * given[f"com_{c}"] for c in "xyz"}
     step = {k: v for k, v in term.where.items() if k == "from_row"}
@@ -52,15 +63,16 @@ def _place_and_values(effect, situation, term):
 
 
 @pytest.mark.parametrize("topology", ["spherical_wrist", "offset_wrist", "seven_axes"])
+@pytest.mark.parametrize("seed", [4, 5])
 @pytest.mark.parametrize("key", sorted(set(OURS) & set(THEIRS)))
-def test_the_library_moves_the_tool_as_the_generator_does(key, topology, tmp_path):
+def test_the_library_moves_the_tool_as_the_generator_does(key, topology, seed, tmp_path):
     _, path = random_arm(topology, tmp_path, 1)
     arm, robot = read_arm(path), load_robot(path)
     kind = "touch" if key == "touch_indentation" else "tracker"
     plan = Plan(kind=kind, samples=24, noise=1e-9, sessions=1, targets=2, loads_kg=(0.0, 3.0))
     if key == "payload":
         plan = Plan(kind=kind, samples=24, noise=1e-9, declares_compliance=True)
-    made = make(plan, arm, arm, [Request(key)], np.random.default_rng(4))
+    made = make(plan, arm, arm, [Request(key)], np.random.default_rng(seed))
     cell, term = made.cell, made.terms[0]
     situation = situation_for(
         robot,

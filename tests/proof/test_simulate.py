@@ -127,3 +127,27 @@ def test_all_kinds_of_tracker_columns_are_written(tmp_path):
     assert set(table.text("session")) == {"S1", "S2"} and len(set(table.text("pose"))) == 52
     assert simulate(tmp_path, "--kind", "tracker", "--wire") == 0
     assert read_table(tmp_path / "out.csv").has("length")
+
+
+@pytest.mark.parametrize(
+    ("options", "shown"),
+    [
+        ("joint=2", lambda q: q * [1, -1, 1, 1, 1, 1]),
+        ("joint=2,turn=90", lambda q: np.add(q, [0, np.pi / 2, 0, 0, 0, 0])),
+        ("joint=2,source_joint=4", lambda q: q[:, [0, 3, 2, 1, 4, 5]]),
+    ],
+)
+def test_a_wrong_convention_puts_the_tool_where_the_right_one_would(options, shown, tmp_path):
+    from app.kinematics import load_robot
+
+    _, robot = random_arm("spherical_wrist", tmp_path, 5)
+    simulate(tmp_path, "--kind", "tracker", "--effect", f"wrong_convention:{options}", "--noise-mm", "0.0001")
+    truth, table = json.loads((tmp_path / "out.truth.json").read_text()), read_table(tmp_path / "out.csv")
+    q, seen = table.numbers([f"q{j + 1}" for j in range(6)]), table.numbers("xyz")
+    model, tip = load_robot(robot), np.array(truth["tools_mm"][0][0]) / 1e3
+    points = np.array([(m := model.flange_matrix(row))[:3, :3] @ tip + m[:3, 3] for row in shown(q)])
+
+    def distances(p):
+        return np.linalg.norm(p[:, None] - p[None], axis=-1)
+
+    assert np.abs(distances(points) - distances(seen)).max() < 2e-6

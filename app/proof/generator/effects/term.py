@@ -109,7 +109,8 @@ def parse_request(text: str, package: str) -> Request:
 
 def draw_term(request: Request, law: Law, rng: np.random.Generator, cell: Any) -> tuple[Term, bool]:
     """The term asked for, and whether its strength was left open."""
-    term = law.draw(rng, cell, dict(request.places))
+    asked = {**request.places, **({"sizes": request.sizes} if request.sizes else {})}
+    term = law.draw(rng, cell, asked)
     if not request.sizes:
         return term, term.scalable
     return replace(term, parameters={k: request.sizes.get(k, 0.0) for k in term.parameters}), False

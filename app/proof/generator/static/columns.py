@@ -28,6 +28,7 @@ from app.proof.generator.static.cell import (
 STEP = 1e-6  # m or rad: small against every curve, large against rounding
 AXES = {"link_length": ("a", "d"), "link_twist": ("alpha", "beta")}
 DRIVERS = {"backlash": ("approach", "gravity_torque")}
+WHOLE = ("wrong_convention",)  # there or not: has no strength that could be small
 STEPS = ("base_shift", "tool_slip", "joint_slip")
 
 Change = Callable[[Cell, World], tuple[Cell, World]]
@@ -83,6 +84,8 @@ def places(made: Any) -> Iterator[Term]:
     cell, rng = made.cell, np.random.default_rng(0)
     n = cell.arm.n
     for key, law in catalog.members(LAWS, "EFFECT").items():
+        if key in WHOLE:
+            continue
         options: dict[str, Sequence[Any]] = {}
         if "joint" in law.places:
             options["joint"] = range(1, n + 1)
@@ -96,7 +99,7 @@ def places(made: Any) -> Iterator[Term]:
             options["driver"] = DRIVERS[key]
         for chosen in product(*options.values()):
             asked = dict(zip(options, chosen, strict=True))
-            if asked.get("source_joint", 0) == asked.get("joint", -1) or not law.sizes:
+            if asked.get("source_joint", 0) == asked.get("joint", -1):
                 continue
             try:
                 term = law.draw(rng, cell, asked)
