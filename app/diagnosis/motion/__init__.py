@@ -12,6 +12,9 @@ search.py, locate.py, heldout.py  forward selection
 exact.py              refit with the exact laws
 names.py              what may be named, what is left over
 findings.py           the result
+remains.py            what is left, against the stated noise
+study.py              one log in rounds; baseline.py: what a reference run teaches
+gains.py, suspects.py drive gains that nobody gave; columns that are not what they are called
 engine.py             the order of all this
 """
 

@@ -10,7 +10,7 @@ from app.diagnosis.motion.scoring import solve
 from app.diagnosis.result import Alternative
 
 if TYPE_CHECKING:
-    from app.diagnosis.motion.engine import Study
+    from app.diagnosis.motion.study import Study
 
 CLOSE = 9.2  # difference of the Bayesian criterion that still counts as open
 MOST = 6

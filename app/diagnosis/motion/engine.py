@@ -3,55 +3,23 @@
 from __future__ import annotations
 
 import time
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
 from app.diagnosis.model import SavedModel
-from app.diagnosis.motion.errors import ErrorTable
-from app.diagnosis.motion.exact import ExactFit, exact_fit
+from app.diagnosis.motion.baseline import baseline_of
 from app.diagnosis.motion.findings import build
-from app.diagnosis.motion.library import curve_groups, law_groups
+from app.diagnosis.motion.gains import estimated_gains
 from app.diagnosis.motion.log import Log, read_log
-from app.diagnosis.motion.names import Judgement, judge
-from app.diagnosis.motion.noise import whiteners_of
-from app.diagnosis.motion.prior import choose_scale, prior_factor
-from app.diagnosis.motion.sampling import Samples, motion_of, take_samples
-from app.diagnosis.motion.search import Search, Term
-from app.diagnosis.motion.system import Group, System
+from app.diagnosis.motion.prior import MASS
+from app.diagnosis.motion.sampling import Motion, motion_of
+from app.diagnosis.motion.study import Given, examine
+from app.diagnosis.motion.suspects import check_columns
 from app.diagnosis.result import Diagnosis, Progress
+from app.errors import CellValueError
 from app.kinematics import RobotModel
-from app.kinematics.robot import GRAVITY
 from app.recordings import Table
-
-MOST_ROUNDS = 4
-
-
-@dataclass(frozen=True, eq=False)
-class Corrections:
-    """What is undone before anything else is compared: late torques, wrong factors."""
-
-    delay: float
-    scale: np.ndarray  # (n,) recorded = (1 + scale) * true
-    gravity: np.ndarray  # (3,) m/s^2
-
-
-@dataclass(frozen=True, eq=False)
-class Study:
-    """One log through the search."""
-
-    log: Log
-    samples: Samples
-    system: System
-    prior: np.ndarray
-    prior_scale: float
-    corrections: Corrections
-    fit: ExactFit
-    judgement: Judgement
-    search: Search
-    done: dict[int, np.ndarray]
-    before_residual: np.ndarray
-    before_heldout: float
 
 
 def diagnose(
@@ -78,160 +46,56 @@ def diagnose(
     started = time.perf_counter()
     tell = progress or (lambda share, what: None)
     tell(0.0, "reading")
-    log = read_log(table, robot)
-    study = examine(log, robot, tell, seed)
+    given = Given(effects=model.effects if model else (), mass_prior=_mass_prior(table))
+    if reference is not None:
+        known, motion, without = _ready(reference, robot)
+        study = examine(known, robot, motion, lambda share, what: tell(0.4 * share, what), seed, given)
+        given = replace(given, base=baseline_of(study), without=without)
+    log, motion, without = _ready(table, robot)
+    given = replace(given, without=given.without | without)
+    study = examine(log, robot, motion, tell, seed, given)
     tell(0.95, "report")
     out = build(study, robot, str(table.path))
     tell(1.0, "done")
     return replace(out, seconds=time.perf_counter() - started)
 
 
-def examine(log: Log, robot: RobotModel, tell: Progress, seed: int) -> Study:
-    """Search, exact refit and judgement of one log."""
+def _ready(table: Table, robot: RobotModel) -> tuple[Log, Motion, frozenset[str]]:
+    """The log in newton-metres, its motion, and effects it cannot tell."""
+    log = read_log(table, robot)
     motion = motion_of(log)
-    corrections = Corrections(0.0, np.zeros(robot.joint_count), GRAVITY.copy())
-    factor = prior_factor(robot)
-    samples = take_samples(log, robot, motion, log.y, tell)
-    terms: list[Term] = []
-    before = None
-    rounds = 0
-    while True:
-        rounds += 1
-        system, groups, prior, scale, windows = prepare(samples, factor, terms)
-        search = Search(system, prior, groups, windows, seed)
-        if before is None:
-            bare = ErrorTable(system, prior, [], samples.y)
-            before = (bare.residual([]), bare.heldout([]))
-        start, stay = carried(system, groups, terms)
-        known = {_event(t) for t in start}
-        terms = search.exchange(search.forward(tell, start, stay), stay)
-        fit = exact_fit(system, prior, terms)
-        kept = search.backward(fit.terms, stay)
-        if len(kept) < len(fit.terms):
-            fit = exact_fit(system, prior, kept)
-        terms = fit.terms
-        new = _corrections(corrections, fit)
-        settled = new is None and {_event(t) for t in terms if t.group.law.windowed} <= known  # type: ignore[union-attr]
-        if settled or rounds == MOST_ROUNDS:
-            break
-        if new is not None:
-            corrections = new
-            torque = log.y / (1.0 + corrections.scale)
-            samples = take_samples(
-                log, robot, motion, torque, tell, shift=corrections.delay, gravity=corrections.gravity
-            )
-    tell(0.85, "names")
-    stated = None if log.stated_noise is None else log.stated_noise / np.sqrt(samples.window)
-    done = corrected_by(corrections, fit)
-    judgement = judge(search, fit, stated, done)
-    return Study(log, samples, system, prior, scale, corrections, fit, judgement, search, done, *before)
+    without: frozenset[str] = frozenset()
+    if log.current:
+        gains, sigmas = estimated_gains(log, robot, motion[:3], table)
+        said = ", ".join(f"{g:.3g} ± {s:.2g}" for g, s in zip(gains, sigmas, strict=True))
+        note = (
+            f"drive gains ESTIMATED from the description's own weight: {said} Nm/A; "
+            "a wrong gain, or a load on all joints alike, cannot be told in this log"
+        )
+        log = replace(log, y=log.y * gains, current=False, notes=(*log.notes, note))
+        without = frozenset({"torque_constant"})
+    check_columns(log, robot, motion[:3], log.y, table)
+    return log, motion, without
 
 
-def carried(system: System, groups: list[Group], terms: list[Term]) -> tuple[list[Term], int]:
-    """Terms of the last round for this one, and how many of them stay whatever comes.
+def _mass_prior(table: Table) -> float:
+    """How far the header says the links' masses may be off, relative.
 
-    Those that the samples were corrected for stand first and stay: what remains of them is nothing now.
+    Raises:
+        CellValueError: it says something else than a positive number.
     """
-    stay, rest = [], []
-    for term in terms:
-        law = term.group.law
-        assert law is not None
-        if law.corrected:
-            same = [g for g in groups if g.law is law and dict(g.where) == dict(term.group.where)]
-            stay += [replace(term, group=g) for g in same]
-            continue
-        columns = system.samples.pool(law.columns(system.samples.state, term.group.where, term.group.shape))
-        group = replace(term.group, size=columns.shape[-1], bent=False)
-        rest.append(replace(term, group=system.append(group, columns)))
-    return stay + rest, len(stay)
-
-
-def corrected_by(corrections: Corrections, fit: ExactFit) -> dict[int, np.ndarray]:
-    """Term -> what the samples were corrected by, in the term's columns."""
-    out: dict[int, np.ndarray] = {}
-    for i, term in enumerate(fit.terms):
-        if term.group.label == "delay":
-            out[i] = np.array([corrections.delay])
-        elif term.group.label == "torque_constant" and term.group.joint is not None:
-            scale = corrections.scale[term.group.joint]
-            out[i] = np.array([scale / (1 + scale)])
-        elif term.group.label == "gravity_direction":
-            out[i] = corrections.gravity - GRAVITY
-    return out
-
-
-def _event(term: Term) -> tuple:
-    """A term's key, its times rounded: the same event found again."""
-    where = term.group.where
-    return (term.group.label, *(round(float(where[k]), 1) for k in ("from_s", "to_s") if k in where))
-
-
-def prepare(
-    samples: Samples, factor: np.ndarray, found: list[Term]
-) -> tuple[System, list[Group], np.ndarray, float, dict[Group, np.ndarray]]:
-    """Library, noise, Gram matrices and the prior for these samples."""
-    shared, local = law_groups(samples)
-    curves = curve_groups(samples)
-    both = [a + b for a, b in zip(local, curves, strict=True)]
-    extra = [
-        (t.group, samples.pool(t.group.law.columns(samples.state, t.group.where, t.group.shape)))
-        for t in found
-        if t.group.law is not None and t.group.law.windowed
-    ]
-    whiteners = whiteners_of(samples, shared, both, extra)
-    system = System(samples, whiteners, shared, both)
-    for group, columns in extra:
-        system.append(group, columns)
-    scale = _prior_scale(system, factor)
-    prior = np.linalg.inv(factor @ factor.T) / scale**2
-    groups = [g for g, _ in shared] + [g for part in local for g, _ in part]
-    windows = {g: _windows(g, samples.block_count) for g in groups if g.base}
-    return system, groups, prior, scale, windows
-
-
-def _windows(group: Group, blocks: int) -> np.ndarray:
-    """(w, 2) block edges an event may have."""
-    assert group.law is not None
-    if group.law.key == "payload_change":
-        return np.array([(a, blocks) for a in range(2, blocks - 1)])
-    return np.array([(a, b) for a in range(blocks) for b in range(a + 1, min(a + blocks // 2, blocks) + 1)])
-
-
-def _prior_scale(system: System, factor: np.ndarray) -> float:
-    """What the log says of the description's masses once every law and curve has had its share."""
-    size = system.inertial_size
-    gram, rhs = np.zeros((size, size)), np.zeros(size)
-    for j, part in enumerate(system.parts):
-        inertial = np.arange(1, 1 + size - 10 * j)
-        others = np.arange(1 + len(inertial), part.columns.shape[1])
-        G = part.total
-        scale = np.sqrt(np.maximum(np.diag(G)[others], 1e-300))
-        own = G[np.ix_(others, others)] / scale / scale[:, None]
-        own[np.diag_indices_from(own)] += 1e-8
-        cross = G[np.ix_(inertial, others)] / scale
-        weight = np.linalg.solve(own, np.column_stack([cross.T, G[others, 0] / scale]))
-        at = np.arange(10 * j, size)
-        gram[np.ix_(at, at)] += G[np.ix_(inertial, inertial)] - cross @ weight[:, :-1]
-        rhs[at] += G[inertial, 0] - cross @ weight[:, -1]
-    return choose_scale(0.5 * (gram + gram.T), rhs, factor)
-
-
-def _corrections(old: Corrections, fit: ExactFit) -> Corrections | None:
-    """The next correction, or None where nothing moves any more."""
-    delay, scale, gravity, moved = old.delay, old.scale.copy(), old.gravity.copy(), False
-    for term, values, covariance in zip(fit.terms, fit.values, fit.covariances, strict=True):
-        key = term.group.label
-        std = np.sqrt(np.maximum(np.diag(covariance), 0.0))
-        if key == "delay":
-            delay += values["delay"]
-            moved |= abs(values["delay"]) > 0.1 * std[0]
-        elif key == "torque_constant" and term.group.joint is not None:
-            j = term.group.joint
-            step = float(np.clip(values["scale"], -0.5, 2.0))
-            scale[j] = (1 + scale[j]) * (1 + step) - 1
-            moved |= abs(step) > 0.1 * std[0]
-        elif key == "gravity_direction":
-            step = np.array([values[k] for k in ("gx", "gy", "gz")]) - GRAVITY
-            gravity = gravity + step
-            moved |= bool(np.any(np.abs(step) > 0.1 * std))
-    return Corrections(delay, scale, gravity) if moved else None
+    stated = table.keys.get("inertial_prior")
+    if stated is None:
+        return MASS
+    if (
+        isinstance(stated, bool)
+        or not isinstance(stated, int | float)
+        or not (np.isfinite(stated) and stated > 0)
+    ):
+        raise CellValueError(
+            f"found {str(stated)[:40]!r}",
+            file=table.path,
+            column="inertial_prior",
+            expected="a positive share, such as 0.05",
+        )
+    return float(stated)

@@ -14,7 +14,7 @@ from app.kinematics import RobotModel
 from app.kinematics.robot import GRAVITY
 
 if TYPE_CHECKING:
-    from app.diagnosis.motion.engine import Study
+    from app.diagnosis.motion.study import Study
 
 
 def build(study: Study, robot: RobotModel, file: str) -> Diagnosis:
@@ -23,17 +23,18 @@ def build(study: Study, robot: RobotModel, file: str) -> Diagnosis:
     table = ErrorTable(
         study.system, study.prior, [t.group for t in fit.terms], samples.y - fit.offset, study.done
     )
+    base = list(range(study.known))
     named = [i for i, good in enumerate(judgement.named) if good]
     inflation = _inflation(study)
-    findings = [_finding(study, table, i, named, inflation) for i in named]
+    findings = [_finding(study, table, i, base + named, inflation) for i in named]
     order = np.argsort([-judgement.gains[i] for i in named])
     findings = [findings[k] for k in order]
-    after_residual = table.residual(named)
+    after_residual = table.residual(base + named)
     usable = samples.usable
-    after = Quality(_rms(after_residual, usable), table.heldout(named), "Nm")
+    after = Quality(_rms(after_residual, usable), table.heldout(base + named), "Nm")
     before = Quality(_rms(study.before_residual, usable), study.before_heldout, "Nm")
     leftover = Leftover(judgement.leftover_p, judgement.leftover_where)
-    structure = judgement.leftover_p <= 0.01 or not all(judgement.named)
+    structure = judgement.leftover_p <= 0.01 or not all(judgement.named[study.known :])
     if findings:
         verdict = "partly" if structure else "named"
     else:
@@ -104,7 +105,7 @@ def _finding(study: Study, table: ErrorTable, index: int, named: list[int], infl
         where=where,
         parameters=parameters,
         visible=term.visible,
-        p_value=term.p_value,
+        p_value=study.judgement.p_values[index],
         heldout_rms_without=table.heldout(others),
         heldout_rms_with=table.heldout(named),
         alternatives=alternatives_of(study, index),
@@ -132,7 +133,7 @@ def _rms(residual: np.ndarray, usable: np.ndarray) -> float:
 
 def _notes(study: Study) -> tuple[str, ...]:
     samples, log = study.samples, study.log
-    notes = [*log.notes, samples.smoothing.sentence()]
+    notes = [*log.notes, *study.notes, samples.smoothing.sentence()]
     if samples.thinned:
         notes.append(
             f"{len(samples.index)} of {len(log.t)} samples were used, in windows of {samples.window} "

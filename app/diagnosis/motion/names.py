@@ -14,7 +14,7 @@ import numpy as np
 
 from app.diagnosis.motion.exact import ExactFit
 from app.diagnosis.motion.remains import Remains, remains_of
-from app.diagnosis.motion.scoring import Board, null_scores, score_all
+from app.diagnosis.motion.scoring import Board, minus_log_p, null_scores, score_all
 from app.diagnosis.motion.search import LEVEL, Search, Term
 from app.diagnosis.motion.system import Group
 
@@ -36,6 +36,7 @@ class Judgement:
         leftover_p: family-wise p of what remains.
         leftover_where: joint and driver of it.
         reasons: why names were withheld, and what remains.
+        p_values: per term, family-wise, against the null of the final model's residual.
     """
 
     named: list[bool]
@@ -43,6 +44,7 @@ class Judgement:
     leftover_p: float
     leftover_where: dict
     reasons: tuple[str, ...]
+    p_values: list[float]
 
 
 def judge(search: Search, fit: ExactFit, stated: np.ndarray | None, done: dict[int, np.ndarray]) -> Judgement:
@@ -70,6 +72,15 @@ def judge(search: Search, fit: ExactFit, stated: np.ndarray | None, done: dict[i
         p_value, where = 1.0 / (1 + len(null)), {"joint": worst + 1}
     why = [_objection(search, board, bar, remains, term, values, cov, gain) for term, values, cov, gain in zip(
         fit.terms, fit.values, fit.covariances, gains, strict=True)]  # fmt: skip
+    for i in range(search.known):
+        why[i] = ""
+    everything = search.board(fit.solution, selected)
+    wild = null_scores(everything, search.signs)
+    scores = minus_log_p(gains, np.array([g.size for g in selected], int))
+    p_terms = [float((1 + np.sum(wild >= s)) / (1 + len(wild))) for s in scores]
+    for i, p in enumerate(p_terms):
+        if i >= search.known and p > LEVEL and not why[i]:
+            why[i] = "signs turned at random explain as much"
     _own_angle(fit.terms, why)
     _followers(fit.terms, gains, why)
     for term, reason in zip(fit.terms, why, strict=True):
@@ -81,7 +92,8 @@ def judge(search: Search, fit: ExactFit, stated: np.ndarray | None, done: dict[i
         where = {
             k: v for k, v in fit.terms[strongest].group.where.items() if k in ("joint", "driver", "body")
         }
-    return Judgement([not r for r in why], gains, p_value, where, tuple(reasons))
+    named = [not r and i >= search.known for i, r in enumerate(why)]
+    return Judgement(named, gains, p_value, where, tuple(reasons), p_terms)
 
 
 def _objection(

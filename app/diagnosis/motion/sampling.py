@@ -71,7 +71,11 @@ class Samples:
         return values.reshape(-1, self.window, *values.shape[1:]).mean(axis=1)
 
 
-def motion_of(log: Log) -> tuple[np.ndarray, np.ndarray, np.ndarray, Smoothing]:
+#: Smoothed position, speed and acceleration of every sample, and how they were made.
+Motion = tuple[np.ndarray, np.ndarray, np.ndarray, Smoothing]
+
+
+def motion_of(log: Log) -> Motion:
     """Smoothed position, speed, acceleration of every sample."""
     return differentiate(log.t, log.q, log.qd, log.segments, log.step)
 
@@ -79,7 +83,7 @@ def motion_of(log: Log) -> tuple[np.ndarray, np.ndarray, np.ndarray, Smoothing]:
 def take_samples(
     log: Log,
     robot: RobotModel,
-    motion: tuple[np.ndarray, np.ndarray, np.ndarray, Smoothing],
+    motion: Motion,
     torque: np.ndarray,
     progress: Progress,
     *,

@@ -18,6 +18,7 @@ from app.diagnosis.result import Progress
 FLIPS = 199
 LEVEL = 0.01
 MOST_TERMS = 40
+LOUD = 0.02  # share of what is left that a law must explain to come in past a wild null
 BETTER = 2.0  # an exchange must be worth this much
 DROP = 8.0  # a term must be worth this much beyond the Bayesian criterion
 
@@ -38,6 +39,7 @@ class Search:
     Args:
         prior: information on the leading (nuisance) unknowns.
         change: True where only changes against a reference are sought: signs are then free.
+        known: number of leading terms that are the reference's own.
     """
 
     system: System
@@ -46,6 +48,7 @@ class Search:
     windows: dict[Group, np.ndarray]
     seed: int = 0
     change: bool = False
+    known: int = 0
 
     def __post_init__(self):
         rng = np.random.default_rng(self.seed)
@@ -54,7 +57,7 @@ class Search:
 
     def board(self, solution: Solution, selected: list[Group]) -> Board:
         """Scores of everything that may still come in."""
-        taken = {_key(g) for g in selected}
+        taken = {_key(g) for g in selected[self.known :]}
         groups = [g for g in self.groups if not g.base and _key(g) not in taken]
         return score_all(self.system, solution, groups, self.windows, list(self.windows))
 
@@ -74,13 +77,16 @@ class Search:
             if not board.candidates:
                 break
             null = null_scores(board, self.signs)
-            bar = max(float(null.max()), np.log10(len(board.candidates) / LEVEL))
+            sure = np.log10(len(board.candidates) / LEVEL)
+            bar = max(float(null.max()), sure)
             loss, taken = None, False
             for index in np.argsort(-board.score)[:12]:
                 candidate = board.candidates[index]
-                if board.score[index] <= bar:
+                # While much is left unexplained the null is as wild as the residual: then what was not
+                # used for the fit must speak, and speak loudly.
+                if board.score[index] <= bar and board.gain[index] < LOUD * solution.rss:
                     break
-                if (_key(candidate.group), candidate.window) in refused:
+                if board.score[index] <= sure or (_key(candidate.group), candidate.window) in refused:
                     continue
                 group = self._settle(candidate, selected)
                 if not self._possible(group, selected):
@@ -88,11 +94,11 @@ class Search:
                     continue
                 if loss is None:
                     loss = heldout_losses(self.system, selected, self.prior)
-                falls = heldout_losses(self.system, [*selected, group], self.prior) < loss
+                least = loss if board.score[index] > bar else (1.0 - LOUD) * loss
+                falls = heldout_losses(self.system, [*selected, group], self.prior) < least
                 if falls.all() or (group.law is not None and group.law.windowed and falls[0]):
                     taken = True
-                    p = (1 + np.sum(null >= board.score[index])) / (1 + len(null))
-                    terms.append(Term(group, float(p), candidate.visible))
+                    terms.append(Term(group, 1.0 / (1 + FLIPS), candidate.visible))
                     break
                 refused.add((_key(candidate.group), candidate.window))
             if not taken:
@@ -124,7 +130,7 @@ class Search:
                 continue
             others = [t.group for k, t in enumerate(terms) if k != i]
             own = self.losses_without([t.group for t in terms])[i] - penalty * _freedom(term.group)
-            taken = {_key(g) for g in others}
+            taken = {_key(g) for g in others[self.known :]}
             here = [
                 g for g in self.groups if g.joint == term.group.joint and not g.base and _key(g) not in taken
             ]
