@@ -97,9 +97,10 @@ def bar(inner: str, *, testid: str, top: bool, left: int, right: int, colour: st
     )
 
 
-def item(text: str, *, testid: str = "", strong: bool = False, colour: str = "") -> str:
-    """One entry of a line."""
+def item(text: str, *, testid: str = "", strong: bool = False, colour: str = "", gives: bool = False) -> str:
+    """One entry of a line; the one that `gives` is cut short where the line is full."""
     hook = f' data-testid="{escape(testid)}"' if testid else ""
     mark = lamp(colour, 10) if colour else ""
     weight = "font-weight:600;" if strong else ""
-    return f'<span{hook} style="{weight}overflow:hidden;text-overflow:ellipsis">{mark}{escape(text)}</span>'
+    room = "min-width:0;" if gives else "flex:none;"
+    return f'<span{hook} style="{weight}{room}overflow:hidden;text-overflow:ellipsis">{mark}{escape(text)}</span>'

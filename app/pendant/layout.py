@@ -56,7 +56,7 @@ class Layout:
     def message(self, level: str, text: str) -> None:
         """The line below the cell."""
         self._message.content = html.bar(
-            html.item(text, testid=f"message-{level}"),
+            html.item(text, testid=f"message-{level}", gives=True),
             testid="message",
             top=False,
             left=LEFT_PX,

@@ -64,10 +64,8 @@ class Page:
         tool = state.tool
         items = [
             html.item(t(f"status.{how}"), testid="status-state", colour=colour, strong=True),
-            html.item(
-                t("status.enabled" if pendant.jogging.enabled else "status.locked"), testid="status-enable"
-            ),
-            html.item(pendant.model.title, testid="status-robot"),
+            *([html.item(t("status.enabled"), testid="status-enable")] if pendant.jogging.enabled else []),
+            html.item(pendant.model.title, testid="status-robot", gives=True),
             html.item(
                 t("status.tool", name=tool.name) if tool else t("status.no_tool"), testid="status-tool"
             ),

@@ -13,6 +13,8 @@ if TYPE_CHECKING:
     from app.pendant.client import Pendant
 
 _HOLD_HZ = 15.0
+#: Two tones, so that a pair reads as a pair.
+_TONES = {-1: (134, 142, 150), 1: (73, 80, 87)}
 _CARTESIAN = ("X", "Y", "Z", "RX", "RY", "RZ")
 
 
@@ -56,7 +58,7 @@ class _View:
         with self._folder:
             for axis, name in enumerate(names):
                 for sign, mark in ((-1, "−"), (1, "+")):
-                    button = gui.add_button(f"{name} {mark}", color="gray")
+                    button = gui.add_button(f"{name} {mark}", color=_TONES[sign])
                     jog = Jog(pendant.jogging.frame, axis, sign)
 
                     @button.on_hold(callback_hz=_HOLD_HZ)

@@ -50,8 +50,8 @@ def close(world: World) -> View:
 def result(world: World) -> View:
     """Spike, torch and recorded flanges: what a result is about."""
     reach, ahead, left = _sizes(world)
-    centre = world.p_base_spike - 0.10 * reach * ahead + np.array([0.0, 0.0, 0.05 * reach])
-    return centre + 0.80 * reach * (0.35 * ahead - 0.95 * left + np.array([0.0, 0.0, 0.38])), centre
+    centre = world.p_base_spike - 0.27 * reach * ahead + np.array([0.0, 0.0, -0.04 * reach])
+    return centre + 1.3 * reach * (0.38 * ahead - 0.95 * left + np.array([0.0, 0.0, 0.32])), centre
 
 
 VIEWS: dict[str, Callable[[World], View]] = {"whole": whole, "side": side, "front": front, "close": close}
