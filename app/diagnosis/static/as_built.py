@@ -64,10 +64,10 @@ def relearnt(now: Fitted, rounds: int = _ROUNDS) -> Fitted:
                 unit = _unit(term)
                 total += float(np.sum(term.values**2) + noise * np.trace(inverse[where, where])) / unit**2
                 count += len(term.values)
-        spread = float(np.sqrt(total / max(count, 1)))
+        spread = max(float(np.sqrt(total / max(count, 1))), 1e-9)
         old = next((t.spread / _unit(t) for t in now.terms if np.isfinite(t.spread)), spread)
         terms = tuple(
-            replace(t, spread=max(spread, 1e-9) * _unit(t)) if np.isfinite(t.spread) else t for t in now.terms
+            replace(t, spread=spread * _unit(t)) if np.isfinite(t.spread) else t for t in now.terms
         )
         now = fit(now.recording, now.setup, terms, now.weights, held=now.held)
         if abs(np.log(spread / old)) < 0.05:
