@@ -7,9 +7,18 @@ import re
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
+
 from app.diagnosis.model import SavedModel
 from app.diagnosis.result import Diagnosis, Progress
-from app.errors import FileFormatError, InputError, MissingColumnError, UnitError, UnknownNameError
+from app.errors import (
+    CellValueError,
+    FileFormatError,
+    InputError,
+    MissingColumnError,
+    UnitError,
+    UnknownNameError,
+)
 from app.kinematics import RobotModel, load_robot
 from app.recordings import Table, read_table
 
@@ -19,6 +28,8 @@ ENGINES = {
     "tracker": "app.diagnosis.static",
     "motion": "app.diagnosis.motion",
 }
+#: The largest believable joint angle [rad] and length [m].
+_LARGEST = {"rad": (100.0, "rad"), "m": (1000.0, "m")}
 #: Kinds that other commands read.
 ELSEWHERE = {"points": "teachframe solve", "arcs": "teachframe base"}
 
@@ -48,6 +59,8 @@ def diagnose_file(
     kind, noted = kind_of(table)
     arm = robot_for(table, robot)
     check_joints(table, arm)
+    if family(kind) == "static":
+        check_sizes(table)
     if model is not None and model.kind != family(kind):
         raise InputError(
             f"the model given was learnt from {model.kind} recordings and this one is of kind {kind}",
@@ -178,6 +191,28 @@ def check_joints(table: Table, robot: RobotModel) -> None:
                 row=table.header_row,
                 column=column.name,
                 expected=f"q{number}_m" if joint.prismatic else f"q{number}_rad or q{number}_deg",
+            )
+
+
+def check_sizes(table: Table) -> None:
+    """Angles within a hundred radians and lengths within a kilometre: beyond, a cell is broken or has another unit.
+
+    Raises:
+        CellValueError: the first cell beyond.
+    """
+    for name, column in table.columns.items():
+        if not re.fullmatch(r"q\d+|[xyz]\d?|length|target_[xyz]", name):
+            continue
+        most, unit = _LARGEST["m" if column.unit in ("m", "mm") else "rad"]
+        beyond = np.flatnonzero(np.abs(table.number(name, missing=True)) > most)
+        if len(beyond):
+            first = int(beyond[0])
+            raise CellValueError(
+                f"found {table.raw(name)[first]}",
+                file=table.path,
+                row=int(table.rows[first]),
+                column=column.name,
+                expected=f"a value of at most {most:g} {unit}",
             )
 
 
