@@ -78,6 +78,7 @@ class _View:
             pendant.say("error", pendant.t("message.e_stop"))
             return
         pendant.jogging.enabled = on
+        pendant.say("info", pendant.t("message.enabled" if on else "message.locked"))
         pendant.page.numbers()
 
     def _stopped(self) -> None:

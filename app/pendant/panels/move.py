@@ -16,6 +16,7 @@ from app.units import deg, from_deg, from_mm, mm
 if TYPE_CHECKING:
     from app.pendant.client import Pendant
 
+_HAIR = 1e-4  # of a tenth: 180 degrees written in radians are still 180
 _OWN = 0.4  # seconds a slider is left alone after somebody moved it
 _HANDLES = {"handle_both": (True, True), "handle_shift": (True, False), "handle_turn": (False, True)}
 
@@ -28,7 +29,7 @@ class _View:
         for k, joint in enumerate(robot.joints):
             to_screen = mm if joint.prismatic else deg
             low, high = float(to_screen(joint.lower)), float(to_screen(joint.upper))
-            low, high = np.ceil(low * 10) / 10, np.floor(high * 10) / 10
+            low, high = np.ceil(low * 10 - _HAIR) / 10, np.floor(high * 10 + _HAIR) / 10
             value = float(np.clip(round(float(to_screen(pendant.q[k])), 1), low, high))
             slider = gui.add_slider(t("move.joint", number=k + 1), float(low), float(high), 0.1, value)
             pendant.changed(slider, f"joint{k}", lambda v, k=k: self._joint(k, v))
