@@ -8,12 +8,25 @@ from app.diagnosis.static.effect import Place
 from app.diagnosis.static.situation import Situation
 
 _STEADY = 0.5  # K: a temperature that varies by less than this drives nothing
+_JUMPY = 1.0
 
 
 def paces(situation: Situation) -> list[str]:
     """The drivers that are there."""
-    warm = situation.temperature is not None and np.ptp(situation.temperature) > _STEADY
+    warm = situation.temperature is not None and _follows_time(situation.temperature)
     return ["time", "temperature"] if warm else ["time"]
+
+
+def _follows_time(temperature: np.ndarray) -> bool:
+    """A temperature drives something where it varies, and changes slowly: what jumps from row to row is noise."""
+    spread = temperature - temperature.mean()
+    energy = float(spread @ spread)
+    if np.ptp(temperature) < _STEADY or energy <= 0:
+        return False
+    steps = np.diff(temperature)
+    return (
+        float(steps @ steps) < _JUMPY * energy
+    )  # 2 for white noise, near 0 for a slow curve (von Neumann 1941)
 
 
 def pace(situation: Situation, place: Place) -> np.ndarray:

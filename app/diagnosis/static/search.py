@@ -11,7 +11,8 @@ from app.diagnosis.static.fit import Fitted, Term, fit
 from app.diagnosis.static.heldout import heldout_loss
 from app.diagnosis.static.library import Candidate, Library, library
 from app.diagnosis.static.noise import weights_from
-from app.diagnosis.static.score import Basis, Scores, basis, flips, score_library, significance
+from app.diagnosis.static.score import Basis, Scores, basis, family_wise, flips, score_library, significance
+from app.diagnosis.static.serial import stretch, stretch_flips
 
 #: A term is taken only where chance would do as well in at most this share of searches.
 LEVEL = 0.01
@@ -73,7 +74,7 @@ def forward(
         base = basis(now.jacobian)
         scores = score_all(now, library(now.columns, wanted, now.ghosts), base, signs)
         null = scores.null
-        taken = _take(now, scores, level)
+        taken = _take(now, scores, level, lambda trial: serial_null(trial, wanted, rng, nulls))
         if taken is None:
             break
         now, p_value = taken
@@ -82,8 +83,26 @@ def forward(
     return Found(now, tuple(p_values), null)
 
 
-def _take(now: Fitted, scores: Scores, level: float) -> tuple[Fitted, float] | None:
-    """The fit with the best candidate that stands, or None."""
+def serial_null(
+    trial: Fitted, wanted: tuple[Candidate, ...], rng: np.random.Generator, nulls: int
+) -> np.ndarray | None:
+    """The null where errors come in stretches of time, from what the trial leaves; None where they do not."""
+    length = stretch(trial)
+    if length == 1:
+        return None
+    signs = stretch_flips(rng, with_ghosts(trial.recording.pose, trial.ghosts), nulls, length)
+    base = basis(trial.jacobian)
+    return score_all(trial, library(trial.columns, wanted, trial.ghosts), base, signs).null
+
+
+def _take(
+    now: Fitted, scores: Scores, level: float, in_stretches: Callable[[Fitted], np.ndarray | None]
+) -> tuple[Fitted, float] | None:
+    """The fit with the best candidate that stands, or None.
+
+    Args:
+        in_stretches: gives the null of serially correlated errors for a trial, or None.
+    """
     present = {key_of(term.effect.key, term.where) for term in now.terms}
     order = scores.order()
     for index in _by_rank(order, scores)[:_TRIES]:
@@ -98,6 +117,11 @@ def _take(now: Fitted, scores: Scores, level: float) -> tuple[Fitted, float] | N
         )
         if at_bound(trial, len(trial.terms) - 1) or not improves(now, trial):
             continue
+        null = in_stretches(trial)
+        if null is not None:
+            p_value = max(p_value, family_wise(scores.score[index], null))
+            if p_value > level:
+                return None
         trial = fit(trial.recording, trial.setup, trial.terms, weights_from(trial), held=trial.held)
         return trial, p_value
     return None
