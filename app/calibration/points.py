@@ -56,6 +56,7 @@ class Points:
         references: tool points [m] that the header states, by their key without `_mm`.
         disagreement: (n, 2) distance [m] and angle [rad] between joints and pose; None where only one stands there.
         robot: the arm, where the file names one.
+        note: the header's note, or "".
     """
 
     path: Path
@@ -65,6 +66,7 @@ class Points:
     references: dict[str, np.ndarray]
     disagreement: np.ndarray | None
     robot: RobotModel | None
+    note: str = ""
 
 
 def read_points(path: str | Path) -> Points:
@@ -112,7 +114,9 @@ def points_from_table(table: Table) -> Points:
     title = table.keys.get("title")
     if isinstance(title, dict):  # YAML reads a colon inside the title as another key
         title = ": ".join(str(part) for pair in title.items() for part in pair)
-    return Points(table.path, str(title or ""), captures, by_pose, _references(table), disagreement, robot)
+    note = str(table.keys.get("note") or "")
+    stated = _references(table)
+    return Points(table.path, str(title or ""), captures, by_pose, stated, disagreement, robot, note)
 
 
 def _roles(table: Table) -> list[str]:

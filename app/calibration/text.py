@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
+from app.calibration.captures import of_role, stack
+from app.calibration.next_touch import propose
 from app.calibration.quality.region import ellipsoid, half_widths
 from app.calibration.result import ToolCalibration
 from app.calibration.solving import Solved
+from app.errors import DegenerateGeometryError
 from app.geometry import CONVENTIONS
 from app.units import deg, mm
 
@@ -29,7 +32,7 @@ def page(solved: Solved) -> str:
     blocks = [_head(solved), _point(result), _axes(result)]
     if len(result.residual_vectors):
         blocks += [_touches(solved), _figures(result)]
-    blocks += [_rounding(solved), _verdict(solved)]
+    blocks += [_rounding(solved), _verdict(solved), _next_touch(solved)]
     return "\n\n".join("\n".join(block) for block in blocks if block)
 
 
@@ -38,6 +41,8 @@ def _head(solved: Solved) -> list[str]:
     lines = [f"{points.path.name}: {len(points.captures)} points, {len(result.residual_vectors)} touches"]
     if points.title:
         lines.append(points.title)
+    if points.note:
+        lines.append("note: " + points.note)
     lines.append("position: " + _METHODS.get(result.method, result.method))
     lines.append("axes: " + _ORIENTATIONS.get(result.orientation, result.orientation))
     return lines
@@ -127,6 +132,42 @@ def _rounding(solved: Solved) -> list[str]:
 def _verdict(solved: Solved) -> list[str]:
     lines = [str(solved.light)]
     return lines + [f"warning {warning.code}: {warning}" for warning in solved.result.warnings]
+
+
+def _next_touch(solved: Solved) -> list[str]:
+    """The touch that would help most, in the file's own convention."""
+    result, points = solved.result, solved.points
+    touches = of_role(points.captures, "touch")
+    if solved.light.colour == "green" or result.method not in _METHODS or not result.sigma > 0:
+        return []
+    rotations, _ = stack(touches)
+    try:
+        found = propose(
+            rotations,
+            tool=result.tool_point,
+            spike=result.p_base,
+            touches=len(touches) + 1,
+            noise=result.sigma,
+            robot=points.robot,
+            q_near=touches[-1].q,
+        )
+    except DegenerateGeometryError as error:
+        return [f"no next touch to propose: {error}"]
+    form = points.written.convention or CONVENTIONS["ZYX"]
+    numbers = form.from_rotation(found.T_base_flange.rotation)
+    names = [f"{n} {v:.1f}" for n, v in zip("xyz", mm(found.T_base_flange.position), strict=True)]
+    shown = deg(numbers) if form.angular else numbers
+    names += [f"{n} {v:.{1 if form.angular else 4}f}" for n, v in zip(form.columns, shown, strict=True)]
+    lines = [
+        f"best next touch: flange at {', '.join(names)} (mm, {'deg, ' if form.angular else ''}{form.key})"
+    ]
+    if found.q is not None and points.robot is not None:
+        joints = [
+            f"{mm(v):.1f} mm" if joint.prismatic else f"{deg(v):.1f} deg"
+            for v, joint in zip(found.q, points.robot.joints, strict=True)
+        ]
+        lines.append("                 joints " + ", ".join(joints))
+    return [*lines, "                 " + found.sentence()]
 
 
 def _list(names: tuple[str, ...]) -> str:

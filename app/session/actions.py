@@ -96,6 +96,7 @@ class LoadPoints(Action, frozen=True, tag="load_points"):
         angles: key of the angle convention; empty where `values` are joint positions.
         robot: the arm whose joints `values` are; empty where they are flange poses.
         references: tool points [m] the file states, by name.
+        note: what the file remarks about itself.
     """
 
     source: str
@@ -110,6 +111,7 @@ class LoadPoints(Action, frozen=True, tag="load_points"):
     angles: str = ""
     robot: str = ""
     references: dict[str, tuple[float, float, float]] = {}
+    note: str = ""
 
 
 class Undo(Action, frozen=True, tag="undo"):

@@ -43,6 +43,7 @@ def load_action(path: Path, *, method: str = "joint", mode: str | None = None) -
         angles=written.convention.key if written.convention else "",
         robot=points.robot.name if points.robot and not written.convention else "",
         references={name: (float(p[0]), float(p[1]), float(p[2])) for name, p in points.references.items()},
+        note=points.note,
     )
 
 
@@ -75,7 +76,7 @@ def loaded_points(action: LoadPoints) -> Points:
     )
     written = Written(action.columns, values, np.array(action.steps), poses, form)
     references = {name: np.array(point) for name, point in action.references.items()}
-    return Points(Path(action.source), action.title, captures, written, references, None, robot)
+    return Points(Path(action.source), action.title, captures, written, references, None, robot, action.note)
 
 
 def recorded_points(state: SessionState) -> Points:

@@ -11,7 +11,8 @@ from app.resources import STATIC
 
 HEAD = "# kind: points\n# angles: ZYX\n"
 COLUMNS = "role,x_mm,y_mm,z_mm,a_deg,b_deg,c_deg\n"
-GOOD = (STATIC / "samples" / "xiong2012_table1.csv").read_text(encoding="utf-8")
+SAMPLE = (STATIC / "samples" / "xiong2012_table1.csv").read_text(encoding="utf-8")
+GOOD = "".join(line for line in SAMPLE.splitlines(keepends=True) if not line.startswith("# note"))
 ONE_AXIS = "".join(
     f"touch,{1000 + 300 * np.cos(np.radians(a)):.2f},{300 * np.sin(np.radians(a)):.2f},800.00,{a},0,180\n"
     for a in (0, 30, 60, 90)
