@@ -5,7 +5,7 @@ import pytest
 
 from tests.cli.running import teachframe
 
-CASES = 40
+CASES = {"touch": 30, "tracker": 30, "motion": 8}
 KINDS = {
     "touch": ("--effect", "joint_zero:joint=3"),
     "tracker": ("--effect", "joint_zero:joint=3", "--orientation"),
@@ -120,7 +120,7 @@ def test_a_damaged_recording_is_answered_or_refused_in_one_line(kind, tmp_path):
     start = next(i for i, line in enumerate(original) if not line.startswith("#")) + 1
     rng = np.random.default_rng(2024)
     bad = tmp_path / "bad.csv"
-    for case in range(CASES):
+    for case in range(CASES[kind]):
         lines = DAMAGES[int(rng.integers(len(DAMAGES)))](rng, list(original), start)
         data = ("\n".join(lines) + "\n").encode("utf-8")
         if rng.random() < 0.15:

@@ -29,6 +29,7 @@ DRIVERS = {
     "temperature": "temperature",
 }
 
+_NEARLY_ALL = 0.99
 _COUNTS = {2: "two", 3: "three", 4: "four", 5: "five", 6: "six", 7: "seven", 8: "eight", 9: "nine"}
 
 NOISE_SOURCES = {
@@ -150,4 +151,6 @@ def fall(before: float, after: float) -> str:
     share = 1 - after / before
     if abs(share) < 0.005:
         return "unchanged"
+    if share > _NEARLY_ALL:
+        return f"over {_NEARLY_ALL:.0%} smaller"
     return f"{abs(share):.0%} {'smaller' if share > 0 else 'larger'}"
