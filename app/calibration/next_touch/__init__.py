@@ -2,7 +2,7 @@
 
 prediction.py   orientations of touches -> uncertainty of the tool point, before any of them is made
 candidates.py   the orientations that are allowed: tilt and turn about a reference
-plan.py         the best set of further touches, all at once: greedy choices paint themselves into a corner
+plan.py         the best set of further touches, chosen all at once
 proposal.py     the next touch as a pose that the arm reaches, within limits and free of collision
 
 proposal = propose(rotations, tool=…, spike=…, robot=robot, collides=world.check)
