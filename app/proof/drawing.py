@@ -36,15 +36,12 @@ def strata_of(package: str, count: int) -> list[str]:
     """Which stratum each of `count` cases belongs to, by their shares; every stratum at least once."""
     strata = catalog.members(package, "STRATUM")
     total = sum(s.share for s in strata.values())
-    out: list[str] = []
-    for key, stratum in strata.items():
-        out += [key] * max(1, round(count * stratum.share / total))
-    largest = max(strata, key=lambda key: strata[key].share)
-    while len(out) < count:
-        out.append(largest)
-    while len(out) > count and out.count(largest) > 1:
-        out.remove(largest)
-    return out[:count]
+    each = {key: max(1, round(count * stratum.share / total)) for key, stratum in strata.items()}
+    while sum(each.values()) < count:
+        each[max(strata, key=lambda key: strata[key].share)] += 1
+    while sum(each.values()) > count:
+        each[max(each, key=lambda key: each[key])] -= 1
+    return [key for key, cases in each.items() for _ in range(cases)]
 
 
 def draw_static(seed: int, index: int, stratum_key: str, folder: Path) -> dict[str, Any]:

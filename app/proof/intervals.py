@@ -32,4 +32,7 @@ class Rate:
         p, z2 = self.hits / n, Z * Z
         centre = (p + z2 / (2 * n)) / (1 + z2 / n)
         half = Z / (1 + z2 / n) * float(np.sqrt(p * (1 - p) / n + z2 / (4 * n * n)))
-        return max(0.0, centre - half), min(1.0, centre + half)
+        # at the ends the formula gives 0 and 1 but for rounding
+        low = 0.0 if self.hits == 0 else max(0.0, centre - half)
+        high = 1.0 if self.hits == n else min(1.0, centre + half)
+        return low, high

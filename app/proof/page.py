@@ -128,7 +128,8 @@ def _heldout(proof: Proof) -> str:
     return (
         f"<p>Error on rows left out, divided by the noise that was really put in, for the cases answered rightly: "
         f"median {held['median']:.3f}, middle half {held['lower_quartile']:.3f} to {held['upper_quartile']:.3f} "
-        f"({held['cases']} cases). 1 is the floor; what is fitted costs a little above it.</p>"
+        f"({held['cases']} cases). 1 is the floor; what is fitted costs a little above it. "
+        f"Aim: at most {held['aim']:.2f}, {'met' if held['met'] else 'missed'}.</p>"
         + histogram(ratios, low=0.7, high=1.6, floor=1.0)
     )
 

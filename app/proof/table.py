@@ -21,7 +21,8 @@ def table(proof: Proof) -> str:
     if held:
         rows.append(
             f"held-out error over the true noise: median {held['median']:.3f}, "
-            f"middle half {held['lower_quartile']:.3f} to {held['upper_quartile']:.3f} ({held['cases']} cases)"
+            f"middle half {held['lower_quartile']:.3f} to {held['upper_quartile']:.3f} ({held['cases']} cases); "
+            f"aim at most {held['aim']:.2f}: {'met' if held['met'] else 'MISSED'}"
         )
     for kind, (rate, _) in proof.controls.items():
         mark = "empty" if not rate.hits else "NOT EMPTY"

@@ -107,6 +107,7 @@ def test_strata_share_the_cases_and_none_is_left_out():
     drawn = strata_of(STRATA, 500)
     assert len(drawn) == 500 and drawn.count("clean") >= 95 and drawn.count("alias") >= 20
     assert len(strata_of(STRATA, 3)) == 3
+    assert set(strata_of(STRATA, 9)) == set(catalog.members(STRATA, "STRATUM"))
 
 
 @pytest.mark.parametrize("kind", sorted(TITLES))
