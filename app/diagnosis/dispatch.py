@@ -28,8 +28,8 @@ ENGINES = {
     "tracker": "app.diagnosis.static",
     "motion": "app.diagnosis.motion",
 }
-#: The largest believable joint angle [rad] and length [m].
-_LARGEST = {"rad": (100.0, "rad"), "m": (1000.0, "m")}
+#: The largest believable value by SI unit: joint angles, lengths, times (clocks count from 1970), torques, loads.
+_LARGEST = {"rad": 100.0, "m": 1000.0, "s": 1e11, "Nm": 1e7, "kg": 1e5, "degC": 1e4}
 #: Kinds that other commands read.
 ELSEWHERE = {"points": "teachframe solve", "arcs": "teachframe base"}
 
@@ -195,16 +195,16 @@ def check_joints(table: Table, robot: RobotModel) -> None:
 
 
 def check_sizes(table: Table) -> None:
-    """Angles within a hundred radians and lengths within a kilometre: beyond, a cell is broken or has another unit.
+    """Angles within a hundred radians, lengths within a kilometre: beyond, a cell is broken or has another unit.
 
     Raises:
         CellValueError: the first cell beyond.
     """
     for name, column in table.columns.items():
-        if not re.fullmatch(r"q\d+|[xyz]\d?|length|target_[xyz]", name):
+        unit = {"mm": "m", "deg": "rad", "ms": "s"}.get(column.unit or "", column.unit or "")
+        if not column.known or unit not in _LARGEST:
             continue
-        most, unit = _LARGEST["m" if column.unit in ("m", "mm") else "rad"]
-        beyond = np.flatnonzero(np.abs(table.number(name, missing=True)) > most)
+        beyond = np.flatnonzero(np.abs(table.number(name, missing=True)) > _LARGEST[unit])
         if len(beyond):
             first = int(beyond[0])
             raise CellValueError(
@@ -212,7 +212,7 @@ def check_sizes(table: Table) -> None:
                 file=table.path,
                 row=int(table.rows[first]),
                 column=column.name,
-                expected=f"a value of at most {most:g} {unit}",
+                expected=f"a value of at most {_LARGEST[unit]:g} {unit}",
             )
 
 

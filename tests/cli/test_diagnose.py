@@ -150,6 +150,14 @@ def test_a_turning_joint_in_metres_is_refused(tmp_path):
     assert_one_line(teachframe("diagnose", path), "run.csv", "q2_m", "q2_rad or q2_deg")
 
 
+def test_an_angle_beyond_any_joint_names_its_cell(tmp_path):
+    path = recording(tmp_path)
+    lines = path.read_text().splitlines()
+    lines[5] = "1e308," + lines[5].partition(",")[2]
+    path.write_text("\n".join(lines) + "\n")
+    assert_one_line(teachframe("diagnose", path), "run.csv", "row 6", "column q1_rad", "1e308", "100 rad")
+
+
 def test_a_reference_for_touches_is_refused(tmp_path):
     path = recording(tmp_path)
     assert_one_line(teachframe("diagnose", path, "--reference", path), "run.csv", "--reference", "motion")
