@@ -155,7 +155,7 @@ class Pendant:
         now = time.monotonic()
         if now - self._numbers_at >= _SHOWN:
             self._numbers_at = now
-            self.page.numbers()
+            self.worker.latest("numbers", self.page.numbers)  # after the scene, not before it
         else:
             self.worker.animate("numbers", self._numbers_later())
 

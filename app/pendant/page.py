@@ -2,16 +2,21 @@
 
 from __future__ import annotations
 
+import logging
 from typing import TYPE_CHECKING
 
+from app.errors import one_line
 from app.pendant import html
 from app.pendant.panels import panels
-from app.pendant.screens import ScreenView, screens
+from app.pendant.screens import Screen, ScreenView, screens
 from app.session import SessionState
 from app.units import mm
 
 if TYPE_CHECKING:
     from app.pendant.client import Pendant
+
+
+_LOG = logging.getLogger(__name__)
 
 
 class Page:
@@ -26,11 +31,20 @@ class Page:
         self._views: list[ScreenView] = []
         for panel in panels():
             with pendant.layout.left.add_tab(pendant.t(f"{panel.key}.title")):
-                self._views.append(panel.build(pendant))
+                self._build(panel)
         tabs = pendant.client.gui.add_tab_group()
         for screen in screens():
             with tabs.add_tab(pendant.t(f"{screen.key}.title")):
-                self._views.append(screen.build(pendant))
+                self._build(screen)
+
+    def _build(self, screen: Screen) -> None:
+        """One tab; where it cannot be made, the others still can."""
+        try:
+            self._views.append(screen.build(self._pendant))
+        except Exception as error:
+            _LOG.exception("the screen %s could not be made", screen.key)
+            what = one_line(f"{screen.key}: {type(error).__name__}: {error}", 160)
+            self._pendant.say("error", self._pendant.t("message.fault", what=what))
 
     def refresh(self, state: SessionState) -> None:
         """The session changed."""
