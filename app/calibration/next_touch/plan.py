@@ -1,8 +1,8 @@
 """The best set of further touches, chosen together.
 
 A greedy choice takes the touch that helps most now and has to live with it. So the whole rest of the set is chosen at
-once, by exchanging one touch at a time for the best candidate until nothing improves, from several starts. With tilts
-up to 30 degrees this gains one or two percent on a careful greedy choice, and it is never worse.
+once, by exchanging one touch at a time for the best candidate until nothing improves, from several starts, the greedy
+set among them: the plan is never worse than that, and one or two percent better with tilts up to 30 degrees.
 
 Source: Fedorov (1972), exchange algorithm; A-optimality (smallest mean variance of the tool point).
 """
@@ -35,8 +35,8 @@ def plan_touches(done: np.ndarray, choice: np.ndarray, count: int, *, seed: int 
     base = np.sum(done, axis=0) if len(done) else np.zeros((3, 3))
     total = len(done) + count
     best: tuple[float, np.ndarray] = (np.inf, np.zeros(count, int))
-    for _ in range(_STARTS if count > 1 else 1):
-        picked = rng.integers(len(choice), size=count)
+    for start in range(_STARTS if count > 1 else 1):
+        picked = rng.integers(len(choice), size=count) if start else _greedy(base, len(done), choice, count)
         value = np.inf
         for _ in range(_ROUNDS):
             before = value
@@ -50,6 +50,14 @@ def plan_touches(done: np.ndarray, choice: np.ndarray, count: int, *, seed: int 
         if value < best[0]:
             best = (value, picked.copy())
     return _in_order(base, len(done), choice, list(best[1]))
+
+
+def _greedy(base: np.ndarray, done: int, choice: np.ndarray, count: int) -> np.ndarray:
+    out = np.zeros(count, int)
+    for k in range(count):
+        out[k] = int(np.argmin(_score(base + choice, done + k + 1)))
+        base = base + choice[out[k]]
+    return out
 
 
 def _score(sums: np.ndarray, count: int) -> np.ndarray:
