@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from app.diagnosis.static.recording import Mode, StaticRecording
+from app.diagnosis.static.sensed import sensed_torques
 from app.diagnosis.static.situation import situation_for
 from app.diagnosis.static.suspicion import joint_notes, refuse_joints, refuse_measurements
 from app.errors import CellValueError, InputError, TooFewPointsError
@@ -52,7 +53,7 @@ def read_static(table: Table, robot: RobotModel) -> StaticRecording:
         if (mask & keep).any():
             notes.append(text.format(count=int((mask & keep).sum())))
             keep &= ~mask
-    torque = _torques(table, robot, q, notes)
+    torque = sensed_torques(table, robot, q, notes)
     recording = StaticRecording(
         file=str(table.path),
         kind=str(table.kind),
@@ -229,17 +230,6 @@ def _useless(measured: _Measured, session: np.ndarray) -> list[tuple[np.ndarray,
     size = np.bincount(session)
     out.append((size[session] < 4, "{count} rows belong to sessions too short to settle their own frame"))
     return out
-
-
-def _torques(table: Table, robot: RobotModel, q: np.ndarray, notes: list[str]) -> np.ndarray | None:
-    names = table.numbered("tau")
-    if len(names) < robot.joint_count:
-        return None
-    tau = table.numbers(names[: robot.joint_count])
-    if not np.any(tau):
-        notes.append("the torque columns are all zero and were not used")
-        return None
-    return tau
 
 
 def _temperature(table: Table) -> np.ndarray | None:
