@@ -50,7 +50,8 @@ def close(world: World) -> View:
 def result(world: World) -> View:
     """Spike, torch and recorded flanges: what a result is about."""
     reach, ahead, left = _sizes(world)
-    centre = world.p_base_spike - 0.27 * reach * ahead + np.array([0.0, 0.0, -0.04 * reach])
+    centre = world.p_base_spike - 0.27 * reach * ahead
+    centre[2] = 0.5 * (centre[2] + 0.5 * reach)  # a low spike has the arm above it, a high one beside it
     return centre + 1.3 * reach * (0.38 * ahead - 0.95 * left + np.array([0.0, 0.0, 0.32])), centre
 
 
