@@ -58,7 +58,8 @@ def _make(stratum: Stratum, rng: np.random.Generator) -> tuple[MadeMotion, list[
     if best is None:
         raise InputError(f"stratum {stratum.key} drew no case that can be made")
     made, draft, topology = best
-    seen = [motion_visibility(made, i, limit=ALIKE) for i in range(len(made.terms))]
+    limit = None if stratum.key in HIDDEN else ALIKE
+    seen = [motion_visibility(made, i, limit=limit) for i in range(len(made.terms))]
     return made, seen, draft, topology
 
 

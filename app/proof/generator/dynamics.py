@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from app.proof.generator.arm import Arm, stance
-from app.proof.generator.rotations import turn_vector
+from app.proof.generator.rotations import cross, turn_vector
 
 GRAVITY = np.array([0.0, 0.0, -9.81])  # m/s^2 in base
 
@@ -38,7 +38,7 @@ def holding_torques(
     moment = np.cumsum((arm.masses[None, :, None] * centres)[:, ::-1], axis=1)[:, ::-1]
     moment = moment + (np.broadcast_to(load_kg, (m,))[:, None] * load_place)[:, None, :]
     force = mass[..., None] * gravity
-    twist = np.cross(moment - mass[..., None] * where.places, gravity)
+    twist = cross(moment - mass[..., None] * where.places, gravity)
     along = np.where(arm.slides[None, :, None], force, twist)
     assert n == arm.n
     return -np.einsum("mki,mki->mk", where.axes, along)
@@ -73,11 +73,11 @@ def moving_torques(
         axis, place = where.axes[:, k], where.places[:, k]
         # the point of the link before that coincides with this origin
         lever = place - origin
-        push = push + np.cross(spin_rate, lever) + np.cross(spin, np.cross(spin, lever))
+        push = push + cross(spin_rate, lever) + cross(spin, cross(spin, lever))
         if arm.slides[k]:
-            push = push + 2.0 * np.cross(spin, axis * qd[:, k, None]) + axis * qdd[:, k, None]
+            push = push + 2.0 * cross(spin, axis * qd[:, k, None]) + axis * qdd[:, k, None]
         else:
-            spin_rate = spin_rate + axis * qdd[:, k, None] + np.cross(spin, axis * qd[:, k, None])
+            spin_rate = spin_rate + axis * qdd[:, k, None] + cross(spin, axis * qd[:, k, None])
             spin = spin + axis * qd[:, k, None]
         rotation = where.rotations[:, k]
         force, moment, centre = _body(
@@ -101,9 +101,9 @@ def moving_torques(
     for k in reversed(range(n)):
         place = where.places[:, k]
         if k < n - 1:
-            total_moment = total_moment + np.cross(where.places[:, k + 1] - place, total_force)
+            total_moment = total_moment + cross(where.places[:, k + 1] - place, total_force)
         total_force = total_force + forces[k]
-        total_moment = total_moment + moments[k] + np.cross(centres[k] - place, forces[k])
+        total_moment = total_moment + moments[k] + cross(centres[k] - place, forces[k])
         along = total_force if arm.slides[k] else total_moment
         torque[:, k] = np.einsum("mi,mi->m", where.axes[:, k], along)
     return torque
@@ -112,10 +112,10 @@ def moving_torques(
 def _body(rotation, place, spin, spin_rate, push, mass, com, inertia):
     """Force through, and moment about, a rigid body's centre of mass."""
     arm_to = rotation @ com
-    acceleration = push + np.cross(spin_rate, arm_to) + np.cross(spin, np.cross(spin, arm_to))
+    acceleration = push + cross(spin_rate, arm_to) + cross(spin, cross(spin, arm_to))
     world = rotation @ inertia @ np.swapaxes(rotation, 1, 2)
     momentum = np.einsum("mij,mj->mi", world, spin)
-    moment = np.einsum("mij,mj->mi", world, spin_rate) + np.cross(spin, momentum)
+    moment = np.einsum("mij,mj->mi", world, spin_rate) + cross(spin, momentum)
     return mass * acceleration, moment, place + arm_to
 
 
@@ -126,12 +126,12 @@ def _with_load(body, flange, motion, load_kg, load_at, load_inertia):
     spin, spin_rate, push, place = motion
     at = flange_place + rotation @ load_at
     lever = at - place
-    acceleration = push + np.cross(spin_rate, lever) + np.cross(spin, np.cross(spin, lever))
+    acceleration = push + cross(spin_rate, lever) + cross(spin, cross(spin, lever))
     extra = load_kg[:, None] * acceleration
     world = rotation @ load_inertia @ np.swapaxes(rotation, 1, 2)
-    turning = np.einsum("mij,mj->mi", world, spin_rate) + np.cross(spin, np.einsum("mij,mj->mi", world, spin))
+    turning = np.einsum("mij,mj->mi", world, spin_rate) + cross(spin, np.einsum("mij,mj->mi", world, spin))
     share = (load_kg > 0)[:, None]
-    return force + extra, moment + np.cross(at - centre, extra) + share * turning, centre
+    return force + extra, moment + cross(at - centre, extra) + share * turning, centre
 
 
 def turned_gravity(tilt: np.ndarray) -> np.ndarray:

@@ -18,7 +18,7 @@ from app.proof.generator.motion.cell import LAWS, Motion, drive_torques, effect_
 from app.proof.generator.motion.making import MadeMotion
 
 #: Samples that visibility is computed on; lengths are scaled to the whole log.
-SAMPLES = 400
+SAMPLES = 250
 #: How far a description's inertial numbers are believed: share of mass, of a link's size, of its inertia.
 PRIOR = (0.03, 0.03, 0.10)
 DRIVERS = {"joint_coupling": ("speed", "acceleration")}

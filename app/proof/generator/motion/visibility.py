@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import lru_cache
 
 import numpy as np
 
 from app.proof.generator.effects.term import Term
-from app.proof.generator.motion.columns import inertial_columns, places, term_columns, thinned
+from app.proof.generator.motion.columns import Thin, inertial_columns, places, term_columns, thinned
 from app.proof.generator.motion.making import MadeMotion
 from app.proof.generator.static.visibility import Visibility, alike, gap_of, same_place
 
@@ -36,15 +37,22 @@ class Believed:
         return left if columns.ndim == 2 else left[:, 0]
 
 
+@lru_cache(maxsize=1)
+def _prepared(made: MadeMotion) -> tuple[Thin, np.ndarray]:
+    """What all effects of one log share."""
+    thin = thinned(made)
+    return thin, inertial_columns(thin)
+
+
 def motion_visibility(made: MadeMotion, index: int, *, limit: float | None) -> Visibility:
     """Of the effect `index` of a log, the other effects' strengths being open too; see `visibility`."""
-    thin = thinned(made)
+    thin, inertial = _prepared(made)
     term = made.terms[index]
     others: Sequence[Term] = [*made.everywhere, *(t for i, t in enumerate(made.terms) if i != index)]
     effect = thin.effect([*others, term], term)
     blocks = [c for other in others if (c := term_columns(thin, others, other)).shape[1]]
     open_columns = np.hstack(blocks) if blocks else np.zeros((effect.size, 0))
-    project = Believed(inertial_columns(thin), open_columns, thin.weight)
+    project = Believed(inertial, open_columns, thin.weight)
     left = project(effect)
     norm = float(np.linalg.norm(left)) * thin.weight
     per_joint = left[: effect.size].reshape(-1, made.cell.arm.n)
