@@ -36,7 +36,7 @@ class Curve:
         mean_before: (b,) mean residual in the bin.
         mean_after: (b,) likewise.
         share: how much of the residual's variance before the binned mean explains, 0..1.
-        found: True where a finding names this driver.
+        found: True where a finding, or what is left over, names this driver.
     """
 
     driver: str
@@ -62,6 +62,8 @@ def driver_curves(diagnosis: Diagnosis, robot: RobotModel | None, most: int = 6)
     if evidence is None or not len(evidence.q):
         return ()
     named = {name for f in diagnosis.findings for name in _wanted(f.where)}
+    if diagnosis.verdict in ("partly", "unexplained"):
+        named |= set(_wanted(diagnosis.leftover.where))
     curves = []
     for source in _drivers(evidence, diagnosis, robot):
         curve = _curve(source, evidence, robot, (source.key, source.joint) in named)

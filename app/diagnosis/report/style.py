@@ -57,7 +57,7 @@ margin-right:7px;overflow:hidden}.meter i{display:block;height:100%;background:v
 figure{margin:0;break-inside:avoid}figcaption{font-size:8.8pt;color:var(--soft)}
 table{border-collapse:collapse;width:100%;font-variant-numeric:tabular-nums;font-size:9.4pt}
 th{text-align:left;font-weight:600;color:var(--soft);border-bottom:1px solid var(--ink);padding:3px 8px 3px 0}
-td{border-bottom:1px solid var(--rule);padding:3px 8px 3px 0}tr{break-inside:avoid}
+td{border-bottom:1px solid var(--rule);padding:3px 8px 3px 0}tr{break-inside:avoid}dl{break-inside:avoid}
 td.n,th.n{text-align:right}table.fit{width:auto;min-width:46%}
 ul{margin:0 0 6px;padding-left:17px}li{margin-bottom:2px}
 footer{margin-top:20px;border-top:1px solid var(--rule);padding-top:7px;font-size:8.6pt;color:var(--soft)}

@@ -121,7 +121,9 @@ class _View:
         self._search.show(ready=found is None)
         effects = found is not None and bool(found.findings)
         self._verdict.visible = self._bars.visible = self._give_folder.visible = found is not None
-        self._findings.visible = self._apply.visible = self._model.visible = effects
+        self._findings.visible = effects
+        changed = found is not None and bool(found.model) and (effects or found.before != found.after)
+        self._apply.visible = self._model.visible = changed
         self._apply.label = self._pendant.t("compare.take_out" if loaded.applied else "compare.apply")
         self._next.visible = found is not None and bool(found.next_poses)
         self._next.value = False

@@ -71,3 +71,8 @@ def test_a_driver_that_never_changes_gives_no_curve():
     case = static_case()
     evidence = dataclasses.replace(case.evidence, drivers={"temperature [degC]": np.full(60, 20.0)})
     assert driver_curves(dataclasses.replace(case, evidence=evidence, findings=()), None) == ()
+
+
+def test_what_is_left_over_is_plotted_first_where_nothing_is_named():
+    curves = driver_curves(static_case("unexplained"), None)
+    assert curves[0].driver == "angle of joint 3 [deg]" and curves[0].found

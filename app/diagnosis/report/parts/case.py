@@ -18,6 +18,12 @@ class Case:
     robot: RobotModel | None = None
 
     @property
+    def changed(self) -> bool:
+        """True where there is a model beside the bare description: findings, or geometry fitted alongside."""
+        d = self.diagnosis
+        return bool(d.findings) or d.before != d.after
+
+    @property
     def prismatic(self) -> tuple[bool, ...]:
         return tuple(joint.prismatic for joint in self.robot.joints) if self.robot else ()
 
@@ -46,12 +52,10 @@ def table(
     return f"<table{look}><thead><tr>{cells('th', heads)}</tr></thead><tbody>{body}</tbody></table>"
 
 
-BEFORE_AFTER = (
-    '<span><i class="b"></i>description alone</span><span><i class="a"></i>with what was found</span>'
-)
-ALONE = '<span><i class="b"></i>description alone</span>'
-
-
-def key(*more: str, found: bool = True) -> str:
+def key(case: Case, *more: str) -> str:
     """What the colours mean."""
-    return f'<div class="key">{BEFORE_AFTER if found else ALONE}{"".join(more)}</div>'
+    said = '<span><i class="b"></i>description alone</span>'
+    if case.changed:
+        with_it = "with what was found" if case.diagnosis.findings else "with the geometry fitted alongside"
+        said += f'<span><i class="a"></i>{with_it}</span>'
+    return f'<div class="key">{said}{"".join(more)}</div>'

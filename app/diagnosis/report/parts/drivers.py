@@ -17,6 +17,6 @@ def drivers(case: Case) -> str:
         "What the error follows",
         '<p class="small soft">Each dot is a row of the recording; the line is the mean of neighbouring rows. '
         "A line that stays at zero means the error does not follow that quantity.</p>",
-        key(found=bool(case.diagnosis.findings)),
+        key(case),
         f'<div class="grid2">{pictures}</div>',
     )

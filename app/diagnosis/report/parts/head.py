@@ -37,5 +37,5 @@ def head(case: Case, date: str) -> str:
         f"<span>{escape(date)}</span></div>"
         f"<h1>{escape(Path(d.file).name)}</h1><div class='meta'>{escape(meta)}</div></header>"
         f'<div class="verdict {d.verdict}"><b>{_VERDICTS[d.verdict]}</b>{escape(verdict_sentence(d))}</div>'
-        + figure(key(marks) + before_after_bars(d), caption)
+        + figure(key(case, marks) + before_after_bars(d), caption)
     )

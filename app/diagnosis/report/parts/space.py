@@ -13,7 +13,7 @@ def space(case: Case) -> str:
     if evidence is None or evidence.points_predicted_before is None or residual_vectors(evidence)[0] is None:
         return ""
     factor = magnification(evidence)
-    states = (False, True) if case.diagnosis.findings else (False,)
+    states = (False, True) if case.changed else (False,)
     pictures = "".join(
         figure(arrow_plot(evidence, view, after=after, factor=factor, title=title))
         for view, title in (((0, 1), "From above"), ((0, 2), "From the side"))
@@ -23,6 +23,6 @@ def space(case: Case) -> str:
         "Where in the work space",
         f'<p class="small soft">Arrows run from where the simulation puts the tool to where it was measured, '
         f"{factor:g} times longer than they are. Grey: rows set aside.</p>",
-        key(found=len(states) == 2),
+        key(case),
         f'<div class="grid2">{pictures}</div>',
     )

@@ -38,7 +38,7 @@ def timeline(case: Case) -> str:
     more = ['<span><i class="m"></i>measured</span>']
     if windows:
         more.append('<span><i class="w"></i>time a finding points at</span>')
-    return section("Torque over time", _per_joint(evidence), key(*more, found=bool(d.findings)), pictures)
+    return section("Torque over time", _per_joint(evidence), key(case, *more), pictures)
 
 
 def _per_joint(evidence: Evidence) -> str:
