@@ -83,7 +83,7 @@ def stance(
     for k in range(n + 1):
         offset = arm.translations[k] + (0.0 if shifts is None else shifts[..., k, :])
         inner = arm.rotations[k]
-        if turns is not None:
+        if turns is not None and np.any(turns[..., k, :]):
             inner = turn_vector(turns[..., k, :]) @ inner
         place = place + np.einsum("mij,mj->mi", rotation, np.broadcast_to(offset, (m, 3)))
         rotation = rotation @ inner

@@ -19,9 +19,9 @@ def turn(axis: np.ndarray, angle: np.ndarray | float) -> np.ndarray:
 def cross_matrix(v: np.ndarray) -> np.ndarray:
     """The matrix that multiplies like v x; (..., 3) -> (..., 3, 3)."""
     v = np.asarray(v, float)
-    x, y, z = v[..., 0], v[..., 1], v[..., 2]
-    o = np.zeros_like(x)
-    return np.stack([np.stack([o, -z, y], -1), np.stack([z, o, -x], -1), np.stack([-y, x, o], -1)], -2)
+    out = np.zeros((*v.shape, 3))
+    out[..., 2, 1], out[..., 0, 2], out[..., 1, 0] = v[..., 0], v[..., 1], v[..., 2]
+    return out - np.swapaxes(out, -1, -2)
 
 
 def cross(a: np.ndarray, b: np.ndarray) -> np.ndarray:
