@@ -66,9 +66,7 @@ def relearnt(now: Fitted, rounds: int = _ROUNDS) -> Fitted:
                 count += len(term.values)
         spread = max(float(np.sqrt(total / max(count, 1))), 1e-9)
         old = next((t.spread / _unit(t) for t in now.terms if np.isfinite(t.spread)), spread)
-        terms = tuple(
-            replace(t, spread=spread * _unit(t)) if np.isfinite(t.spread) else t for t in now.terms
-        )
+        terms = tuple(replace(t, spread=spread * _unit(t)) if np.isfinite(t.spread) else t for t in now.terms)
         now = fit(now.recording, now.setup, terms, now.weights, held=now.held)
         if abs(np.log(spread / old)) < 0.05:
             break

@@ -76,7 +76,8 @@ def search(written: Rewritten, held, seed: int, tick) -> Outcome:
         before = plain_fit(part, held)
         plan = explore(before, rng, tick)
         fitted = plan.found.fitted
-        if not fitted.terms or len(fitted.setup.rotations) != recording.session_count:
+        whole_setup = fitted.recording.target_names == recording.target_names
+        if not fitted.terms or not whole_setup or len(fitted.setup.rotations) != recording.session_count:
             break
         whole = everywhere(recording, fitted)
         again = outlier_rows(whole)

@@ -11,7 +11,7 @@ import numpy as np
 from app.diagnosis.static.curves import JOINT_CURVE, joint_curve_place, shape_functions
 from app.diagnosis.static.fit import Fitted, Term
 from app.diagnosis.static.outsiders import COMBINED, MARGIN, outsider_advantage
-from app.diagnosis.static.shape import LEVEL, curve_p_value
+from app.diagnosis.static.shape import LEVEL, SHARE, curve_p_value, dominant, law_gain
 
 #: Effect -> family of laws outside the library that could be taken for it.
 _FAMILY = {
@@ -20,7 +20,10 @@ _FAMILY = {
     "gear_eccentricity": "own_angle",
     "joint_compliance": "gravity_torque",
 }
-_OWN_ANGLE = ("gear_ratio", "gear_eccentricity")
+#: So many names on one joint are too many.
+CROWD = 3
+#: … unless one of them explains all but this share of what they explain together.
+COMPANY = 0.2
 
 
 @dataclass(frozen=True)
@@ -41,7 +44,22 @@ def doubt_of(fitted: Fitted) -> Doubt | None:
             worst, at = p_value, index
     if at is not None and "joint" in fitted.terms[at].where:
         return _doubt(fitted.terms[at])
-    return _rivalled(fitted, named)
+    return _crowded(fitted, named) or _rivalled(fitted, named)
+
+
+def _crowded(fitted: Fitted, named: list[int]) -> Doubt | None:
+    """Three names on one joint stand for one that is not in the library; the curve is the one that does most."""
+    joints = [int(fitted.terms[i].where["joint"]) for i in named if "joint" in fitted.terms[i].where]
+    for joint in sorted(set(joints)):
+        if joints.count(joint) < CROWD:
+            continue
+        mine = [i for i in named if fitted.terms[i].where.get("joint") == joint]
+        if dominant(fitted, mine, COMPANY):
+            continue
+        families = ("own_angle", "gravity_torque", "approach")
+        best = max(families, key=lambda family: outsider_advantage(fitted, mine, joint, family))
+        return Doubt({"joint": joint, "driver": best}, _curve(best))
+    return None
 
 
 def _rivalled(fitted: Fitted, named: list[int]) -> Doubt | None:
@@ -56,9 +74,19 @@ def _rivalled(fitted: Fitted, named: list[int]) -> Doubt | None:
                 continue
             advantage = outsider_advantage(fitted, rivals, joint, family)
             advantage += MARGIN + COMBINED if len(rivals) > 1 else 0.0
+            if _slight(fitted, rivals, advantage):
+                continue
             if advantage > best:
                 best, found = advantage, Doubt({"joint": joint, "driver": family}, _curve(family))
     return found
+
+
+def _slight(fitted: Fitted, rivals: list[int], advantage: float) -> bool:
+    """True where an outsider, however certainly better, explains little more than the names do."""
+    if len(rivals) > 1 and not dominant(fitted, rivals):
+        return False
+    more = fitted.rss * float(np.expm1(max(advantage, 0.0) / fitted.size))
+    return more < SHARE * max(law_gain(fitted, index) for index in rivals)
 
 
 def _family(term: Term) -> str | None:

@@ -14,6 +14,9 @@ from app.diagnosis.static.score import basis
 from app.diagnosis.static.search import without
 from app.units import mm
 
+#: Growth of the held-out error without a finding that is no chance where structure remains.
+STRONG = 1.05
+
 
 def findings_of(
     fitted: Fitted,
@@ -50,6 +53,11 @@ def findings_of(
             )
         )
     return tuple(out)
+
+
+def strong(findings: tuple[Finding, ...]) -> tuple[Finding, ...]:
+    """Those whose removal clearly shows on rows left out: where structure remains, the others may be its shadow."""
+    return tuple(f for f in findings if f.heldout_rms_without > STRONG * f.heldout_rms_with)
 
 
 def visible_share(fitted: Fitted, index: int) -> float:

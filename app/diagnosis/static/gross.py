@@ -72,14 +72,23 @@ def _misfit(fitted: Fitted) -> float:
 def _scaled_misfit(fitted: Fitted, original: StaticRecording) -> float:
     """A misfit in the units as they should be is compared with one in the units as written."""
     rms = _misfit(fitted)
-    if (
-        fitted.recording.mode == "points"
-        and fitted.recording.points is not None
-        and original.points is not None
-    ):
-        rms *= float(np.nanstd(original.points) / max(np.nanstd(fitted.recording.points), 1e-12))
+    moved = fitted.recording.points is not original.points or fitted.recording.lengths is not original.lengths
+    if moved:  # lengths in another unit
+        rms *= _spread(original.points, original.lengths) / _spread(
+            fitted.recording.points, fitted.recording.lengths
+        )
+    chain = original.situation.chain  # angles that hardly move fit anything
+    travel = [
+        np.std(chain.frames(q).flange_positions, axis=0).max() for q in (original.q, fitted.recording.q)
+    ]
+    rms *= max(float(travel[0] / max(travel[1], 1e-12)), 1.0)
     if original.orientations is not None:
         angular = fitted.recording.angular
         turn = float(np.sqrt(np.mean(fitted.residual[:, angular] ** 2)))
         rms = float(np.hypot(rms, 0.3 * turn))
     return rms
+
+
+def _spread(points: np.ndarray | None, lengths: np.ndarray | None) -> float:
+    values = points if points is not None else lengths
+    return float(max(np.nanstd(values), 1e-12)) if values is not None else 1.0

@@ -40,7 +40,13 @@ def leftover_of(fitted: Fitted, rng: np.random.Generator, nulls: int = NULLS) ->
     dof = max(fitted.size - base.q.shape[1], 2)
     signs = flips(rng, with_ghosts(fitted.recording.pose, fitted.ghosts), nulls)
     scores = score_library(
-        Library(named, matrix, starts, ()), base, rest, fitted.rows, dof, signs, np.zeros(fitted.rows)
+        Library(named, matrix, starts, np.zeros(len(named), bool), ()),
+        base,
+        rest,
+        fitted.rows,
+        dof,
+        signs,
+        np.zeros(fitted.rows),
     )
     best = int(scores.order()[0])
     return Leftover(scores.p_value(best), dict(scores.candidates[best].place.where))

@@ -43,12 +43,14 @@ class Library:
         candidates: those without a starting row.
         matrix: (N, g) their columns side by side, whitened.
         starts: (len(candidates) + 1,) first column of each.
+        onesided: True for those of one parameter that cannot be negative.
         scans: candidates with a starting row to be searched for, and their unmasked columns (m, k, d).
     """
 
     candidates: tuple[Candidate, ...]
     matrix: np.ndarray
     starts: np.ndarray
+    onesided: np.ndarray
     scans: tuple[tuple[Candidate, np.ndarray], ...]
 
     def block(self, index: int) -> np.ndarray:
@@ -84,4 +86,10 @@ def library(columns: Sensitivity, wanted: tuple[Candidate, ...], ghosts: int = 0
         if blocks
         else np.zeros(((m + ghosts) * k, 0))
     )
-    return Library(tuple(fixed), matrix, starts, tuple(scans))
+    onesided = np.array([_onesided(columns.situation, c) for c in fixed], bool)
+    return Library(tuple(fixed), matrix, starts, onesided, tuple(scans))
+
+
+def _onesided(situation: Situation, candidate: Candidate) -> bool:
+    quantities = candidate.effect.quantities(situation, candidate.place)
+    return len(quantities) == 1 and quantities[0].lower >= 0.0

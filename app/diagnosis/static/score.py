@@ -13,7 +13,7 @@ import numpy as np
 from scipy import special
 
 from app.diagnosis.static.library import Candidate, Library
-from app.diagnosis.static.scan import scan_rows, with_row
+from app.diagnosis.static.scan import scan_all, with_row
 
 #: Share of a candidate's column that must survive the projection for it to be scored.
 VISIBLE = 0.01
@@ -130,11 +130,15 @@ def score_library(
     projected = base.project(library.matrix)
     sizes = np.diff(library.starts)
     unit, visible = _orthonormal(projected, raw, library.starts, sizes)
-    both = unit.T @ np.column_stack([white, flipped])  # (g, 1 + f)
+    both_white = np.column_stack([white, flipped])
+    both = unit.T @ both_white  # (g, 1 + f)
     gains = (
         np.add.reduceat(both**2, library.starts[:-1], axis=0) if len(sizes) else np.zeros((0, 1 + null_count))
     )
     score = np.zeros(len(sizes))
+    # What physics allows in one direction only takes nothing away in the other.
+    against = library.onesided & (both[library.starts[:-1], 0] < 0.0)
+    gains[against, 0] = 0.0
     for d in np.unique(sizes):
         mine = sizes == d
         score[mine] = significance(gains[mine, 0], rss, int(d), dof)
@@ -144,9 +148,10 @@ def score_library(
             )
     found = list(library.candidates)
     all_gain, all_score, all_visible, all_size = [gains[:, 0]], [score], [visible], [sizes]
-    overlap_all = np.column_stack([base.q.T @ white, overlap])
-    for candidate, block in library.scans:
-        result = scan_rows(block, base, white, flipped, overlap_all, VISIBLE)
+    scans = scan_all([block for _, block in library.scans], base.q, both_white, VISIBLE)
+    for (candidate, block), result in zip(library.scans, scans, strict=True):
+        if not len(result.rows):
+            continue
         d = block.shape[2]
         steps = significance(result.gain[:, 0], rss, d, dof)
         at = int(np.argmax(steps))

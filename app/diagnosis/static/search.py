@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -11,6 +11,7 @@ from app.diagnosis.static.fit import Fitted, Term, fit
 from app.diagnosis.static.heldout import heldout_loss
 from app.diagnosis.static.library import Candidate, Library, library
 from app.diagnosis.static.noise import weights_from
+from app.diagnosis.static.scan import SCAN_ROWS, with_row
 from app.diagnosis.static.score import Basis, Scores, basis, family_wise, flips, score_library, significance
 from app.diagnosis.static.serial import stretch, stretch_flips
 
@@ -79,7 +80,7 @@ def forward(
             break
         now, p_value = taken
         p_values.append(p_value)
-        now = settle(now, wanted)
+        now = settle(refined(now), wanted)
     return Found(now, tuple(p_values), null)
 
 
@@ -231,3 +232,29 @@ def _own_score(now: Fitted, index: int, base: Basis, white: np.ndarray) -> float
     gain = float(np.sum((own.q.T @ rest) ** 2))
     dof = max(now.size - base.q.shape[1], 2)
     return float(significance(np.array(gain), float(rest @ rest), block.shape[1], dof))
+
+
+def refined(now: Fitted) -> Fitted:
+    """The last term's starting row put where it fits best; long recordings are scanned in stretches first."""
+    length = -(-now.rows // SCAN_ROWS)
+    index = len(now.terms) - 1
+    term = now.terms[index]
+    if length == 1 or "from_row" not in term.where:
+        return now
+    jacobian, white = without(now, index)
+    base = basis(jacobian)
+    rest = white - base.q @ (base.q.T @ white)
+    open_place = replace(term.place, where={k: v for k, v in term.where.items() if k != "from_row"})
+    block = term.effect.columns(now.columns, open_place)
+    order, row = now.recording.situation.order, int(term.where["from_row"])
+    best, at = -1.0, row
+    for start in order[(order > row - length) & (order < row + length)]:
+        columns = (block * (order >= start)[:, None, None]).reshape(-1, block.shape[2])
+        columns = np.concatenate([columns, np.zeros((len(white) - len(columns), columns.shape[1]))])
+        own = basis(base.project(columns))
+        gain = float(np.sum((own.q.T @ rest) ** 2))
+        if gain > best:
+            best, at = gain, int(start)
+    moved = with_row(Candidate(term.effect, term.place), at).place
+    terms = (*now.terms[:index], replace(term, place=moved))
+    return fit(now.recording, now.setup, terms, now.weights, held=now.held)

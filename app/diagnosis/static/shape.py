@@ -9,9 +9,14 @@ import numpy as np
 from app.diagnosis.static.curves import shape_functions
 from app.diagnosis.static.fit import Fitted, Term
 from app.diagnosis.static.score import basis, significance
+from app.diagnosis.static.search import without
 
 #: Chance at which a free curve of the same driver may beat the law before the name is withheld.
 LEVEL = 0.002
+#: What a free curve may add, as a share of what the law itself explains, before the name is withheld. A law that
+#: explains twenty times as much as any curve could add to it is the right name: what the curve picks up then is
+#: other structure of the arm, however certain that structure is.
+SHARE = 0.05
 
 
 def curve_p_value(fitted: Fitted, index: int) -> float:
@@ -31,8 +36,38 @@ def curve_p_value(fitted: Fitted, index: int) -> float:
         return 1.0
     rest = fitted.white - base.q @ (base.q.T @ fitted.white)
     gain = float(np.sum((own.T @ rest) ** 2))
+    if gain < SHARE * law_gain(fitted, index):
+        return 1.0
     dof = max(fitted.size - base.q.shape[1], 2)
     return float(10.0 ** -significance(np.array(gain), float(rest @ rest), own.shape[1], dof))
+
+
+def law_gain(fitted: Fitted, index: int) -> float:
+    """What term `index` takes off the sum of squares, everything else refitted."""
+    jacobian, white = without(fitted, index)
+    base = basis(jacobian)
+    own = basis(base.project(fitted.jacobian[:, fitted.slices[index]]))
+    rest = white - base.q @ (base.q.T @ white)
+    return float(np.sum((own.q.T @ rest) ** 2))
+
+
+def dominant(fitted: Fitted, indices: list[int], share: float = SHARE) -> bool:
+    """True where one of these terms by itself explains all but a share of what they explain together.
+
+    Such a law stands, whatever company it keeps: what the others pick up is too little to put its name in doubt.
+    """
+    keep = np.ones(fitted.jacobian.shape[1], bool)
+    white = fitted.white.copy()
+    for index in indices:
+        where = fitted.slices[index]
+        keep[where] = False
+        white = white + fitted.jacobian[:, where] @ fitted.terms[index].values
+    base = basis(fitted.jacobian[:, keep])
+    rest = white - base.q @ (base.q.T @ white)
+    blocks = [base.project(fitted.jacobian[:, fitted.slices[index]]) for index in indices]
+    gains = [float(np.sum((basis(block).q.T @ rest) ** 2)) for block in blocks]
+    together = float(np.sum((basis(np.concatenate(blocks, axis=1)).q.T @ rest) ** 2))
+    return max(gains) > (1.0 - share) * together
 
 
 def basis_of_visible(projected: np.ndarray, least: float = 0.03) -> np.ndarray:

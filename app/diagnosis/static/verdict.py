@@ -7,10 +7,11 @@ import time as clock
 import msgspec
 
 from app.diagnosis.result import Diagnosis, Finding, Leftover, Verdict
+from app.diagnosis.static.as_built import spread_of
 from app.diagnosis.static.convention_findings import convention_findings
 from app.diagnosis.static.evidence import evidence_of
-from app.diagnosis.static.excess import beyond_noise
-from app.diagnosis.static.findings import findings_of, quality
+from app.diagnosis.static.excess import below_noise, beyond_noise
+from app.diagnosis.static.findings import findings_of, quality, strong
 from app.diagnosis.static.gross import HOPELESS
 from app.diagnosis.static.library import candidates
 from app.diagnosis.static.models import saved_model
@@ -23,7 +24,9 @@ from app.diagnosis.static.shape import LEVEL as WITHHELD
 from app.kinematics import RobotModel
 
 #: Share of a hopeless misfit that findings may leave and still be given.
-_LEAVES = 0.1
+_LEAVES = 0.01
+#: m: an arm whose every length is off by this is another arm.
+_ANOTHER = 0.02
 
 
 def conclude(robot: RobotModel, outcome: Outcome, tick, began: float) -> Diagnosis:
@@ -34,6 +37,8 @@ def conclude(robot: RobotModel, outcome: Outcome, tick, began: float) -> Diagnos
     wanted = candidates(found.recording.situation)
     hopeless = _hopeless(outcome)
     findings = () if hopeless else findings_of(found, plan.p_values, wanted, plan.shadows)
+    if not plan.sound or plan.withheld:
+        findings = strong(findings)
     after = quality(found)
     findings = (*convention_findings(outcome, after), *findings)
     known = known_noise(recording)
@@ -64,8 +69,10 @@ def conclude(robot: RobotModel, outcome: Outcome, tick, began: float) -> Diagnos
 
 def _hopeless(outcome: Outcome) -> bool:
     """True where the measurements and the poses have nothing to do with each other."""
-    before, after = position_rms(outcome.before), position_rms(outcome.plan.found.fitted)
-    return before > HOPELESS and after > _LEAVES * before
+    found = outcome.plan.found.fitted
+    before, after = position_rms(outcome.before), position_rms(found)
+    collapsed = below_noise(found, known_noise(outcome.written.recording)) or spread_of(found) > _ANOTHER
+    return before > HOPELESS and (after > _LEAVES * before or collapsed)
 
 
 def _structure(plan: Plan, findings: tuple[Finding, ...]) -> bool:

@@ -12,6 +12,9 @@ from app.diagnosis.static.effect import (
     number,
 )
 
+#: More is another unit or another gear box.
+LARGEST = 0.2
+
 
 class GearRatio(StaticEffect):
     key = "gear_ratio"
@@ -24,7 +27,7 @@ class GearRatio(StaticEffect):
         return [Place({"joint": j, "driver": "own_angle"}) for j in joints(situation)]
 
     def quantities(self, situation, place):
-        return (Quantity("ratio_error", "1"),)
+        return (Quantity("ratio_error", "1", -LARGEST, LARGEST),)
 
     def apply(self, cell, situation, place, values):
         j = place.where["joint"] - 1

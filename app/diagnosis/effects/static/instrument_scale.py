@@ -6,6 +6,9 @@ from dataclasses import replace
 
 from app.diagnosis.static.effect import Place, Quantity, StaticEffect, number
 
+#: More is another unit.
+LARGEST = 0.2
+
 
 class InstrumentScale(StaticEffect):
     key = "instrument_scale"
@@ -17,7 +20,7 @@ class InstrumentScale(StaticEffect):
         return [Place({"body": "instrument"})]
 
     def quantities(self, situation, place):
-        return (Quantity("scale_error", "1"),)
+        return (Quantity("scale_error", "1", -LARGEST, LARGEST),)
 
     def apply(self, cell, situation, place, values):
         return replace(cell, scale=cell.scale + values[0])

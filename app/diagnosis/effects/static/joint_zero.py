@@ -12,6 +12,9 @@ from app.diagnosis.static.effect import (
     number,
 )
 
+#: rad or m: more is another convention, not a zero.
+LARGEST = 0.5
+
 
 class JointZero(StaticEffect):
     key = "joint_zero"
@@ -23,7 +26,7 @@ class JointZero(StaticEffect):
         return [Place({"joint": j}) for j in joints(situation)]
 
     def quantities(self, situation, place):
-        return (Quantity("offset", angle_unit(situation, place.where["joint"])),)
+        return (Quantity("offset", angle_unit(situation, place.where["joint"]), -LARGEST, LARGEST),)
 
     def apply(self, cell, situation, place, values):
         return cell.add_joint(place.where["joint"] - 1, values[0])

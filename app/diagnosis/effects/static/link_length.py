@@ -7,6 +7,9 @@ import numpy as np
 from app.diagnosis.static.effect import Place, Quantity, StaticEffect, joints, number
 from app.diagnosis.static.geometry import AXES
 
+#: m: more is another arm.
+LARGEST = 0.05
+
 
 class LinkLength(StaticEffect):
     key = "link_length"
@@ -18,7 +21,7 @@ class LinkLength(StaticEffect):
         return [Place({"link": k, "axis": axis}) for k in joints(situation) for axis in ("a", "d")]
 
     def quantities(self, situation, place):
-        return (Quantity("offset", "mm"),)
+        return (Quantity("offset", "mm", -LARGEST, LARGEST),)
 
     def apply(self, cell, situation, place, values):
         k = place.where["link"] - 1

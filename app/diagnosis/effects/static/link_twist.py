@@ -7,6 +7,9 @@ import numpy as np
 from app.diagnosis.static.effect import Place, Quantity, StaticEffect, joints, number
 from app.diagnosis.static.geometry import AXES
 
+#: rad: more is another arm.
+LARGEST = 0.2
+
 
 class LinkTwist(StaticEffect):
     key = "link_twist"
@@ -18,7 +21,7 @@ class LinkTwist(StaticEffect):
         return [Place({"link": k, "axis": axis}) for k in joints(situation) for axis in ("alpha", "beta")]
 
     def quantities(self, situation, place):
-        return (Quantity("angle", "deg"),)
+        return (Quantity("angle", "deg", -LARGEST, LARGEST),)
 
     def apply(self, cell, situation, place, values):
         k = place.where["link"] - 1

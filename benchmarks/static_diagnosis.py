@@ -1,0 +1,96 @@
+"""Static diagnosis from 60 to 10,000 poses with 199 nulls, and a full geometric fit beside scipy's differences.
+
+Run: python -m benchmarks.static_diagnosis
+"""
+
+from __future__ import annotations
+
+import os
+
+os.environ.setdefault("OMP_NUM_THREADS", "1")  # before numpy is imported; one thread for both sides
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
+import tempfile
+import time
+from pathlib import Path
+
+import numpy as np
+from scipy.optimize import least_squares
+
+from app.diagnosis.static import diagnose
+from app.diagnosis.static.as_built import geometry_terms
+from app.diagnosis.static.fit import _stepped, fit
+from app.diagnosis.static.plain import plain_fit
+from app.diagnosis.static.reading import read_static
+from app.kinematics import load_robot
+from benchmarks.rows import Row
+from tests.diagnosis.static.simulating import poses, term, tracker_rows, write_tracker
+
+ROBOT = "ur10e"
+#: Poses -> aim [s], start-up not counted.
+AIMS = {60: 0.05, 200: 0.2, 1000: 0.5, 10_000: 4.0}
+FITTED = 200
+
+
+def recording(folder: Path, robot, rows: int, terms=()):
+    """A tracker recording of random poses, 0.15 mm noise."""
+    rng = np.random.default_rng(rows)
+    q = poses(robot, rng, rows)
+    return write_tracker(folder / f"r{rows}.csv", robot, q, tracker_rows(robot, q, terms, rng=rng))
+
+
+def quickest(function, rounds: int) -> float:
+    """Shortest of several calls [s]."""
+    best = float("inf")
+    for _ in range(rounds):
+        start = time.perf_counter()
+        function()
+        best = min(best, time.perf_counter() - start)
+    return best
+
+
+def run() -> list[Row]:
+    """All figures."""
+    robot = load_robot(ROBOT)
+    hidden = (term("joint_compliance", {"joint": 2, "driver": "gravity_torque"}, 1e-5),)
+    rows = []
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        for count, aim in AIMS.items():
+            for what, terms in (("clean", ()), ("one effect", hidden)):
+                table = recording(folder, robot, count, terms)
+                len(table)  # the file is read before the clock starts
+                seconds = quickest(lambda t=table: diagnose(t, robot), 3 if count < 10_000 else 1)
+                rows.append(Row(f"diagnose {count} poses, 199 nulls, {what}", seconds, aim=aim))
+        rows.append(_geometric_fit(folder, robot))
+    return rows
+
+
+def _geometric_fit(folder: Path, robot) -> Row:
+    """The same residual, start and parameters for both; each runs until it stops moving."""
+    hidden = tuple(term("link_length", {"link": k, "axis": "a"}, 4e-4) for k in range(1, 6))
+    start = plain_fit(read_static(recording(folder, robot, FITTED, hidden), robot), ())
+    free = tuple(type(t)(t.effect, t.place, t.values, tacit=True) for t in geometry_terms(start))
+
+    def ours():
+        return fit(start.recording, start.setup, free, start.weights)
+
+    first = fit(start.recording, start.setup, free, start.weights, iterations=0)
+    scale = np.linalg.norm(first.jacobian, axis=0)
+
+    def whitened(x: np.ndarray) -> np.ndarray:
+        return _stepped(first, x / scale).white
+
+    def peer():
+        return least_squares(whitened, np.zeros(first.jacobian.shape[1]), method="trf")
+
+    reached, theirs = ours(), peer()
+    assert reached.rss <= 1.001 * 2.0 * theirs.cost, (reached.rss, 2.0 * theirs.cost)
+    name = f"full geometric fit, {FITTED} poses, {len(scale)} parameters"
+    return Row(name, quickest(ours, 5), quickest(peer, 1), "scipy least_squares, finite differences of the same residual")
+
+
+if __name__ == "__main__":
+    from benchmarks.__main__ import HEADS, line, table
+
+    print(table([HEADS, *(line(row) for row in run())]))
