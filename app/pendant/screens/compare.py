@@ -122,8 +122,8 @@ class _View:
         effects = found is not None and bool(found.findings)
         self._verdict.visible = self._bars.visible = self._give_folder.visible = found is not None
         self._findings.visible = effects
-        changed = found is not None and bool(found.model) and (effects or found.before != found.after)
-        self._apply.visible = self._model.visible = changed
+        self._apply.visible = found is not None and (effects or found.before != found.after)
+        self._model.visible = found is not None and bool(found.model)
         self._apply.label = self._pendant.t("compare.take_out" if loaded.applied else "compare.apply")
         self._next.visible = found is not None and bool(found.next_poses)
         self._next.value = False
