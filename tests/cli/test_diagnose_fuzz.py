@@ -5,7 +5,7 @@ import pytest
 
 from tests.cli.running import teachframe
 
-CASES = {"touch": 30, "tracker": 30, "motion": 8}
+CASES = {"touch": 20, "tracker": 30, "motion": 5}
 KINDS = {
     "touch": ("--effect", "joint_zero:joint=3"),
     "tracker": ("--effect", "joint_zero:joint=3", "--orientation"),
