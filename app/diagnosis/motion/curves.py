@@ -7,7 +7,7 @@ import numpy as np
 from app.diagnosis.effects.motion._state import State
 
 #: Driver -> number of knots.
-KNOTS = {"own_angle": 9, "gravity_torque": 6, "acceleration": 6, "time": 9}
+KNOTS = {"own_angle": 9, "gravity_torque": 6, "acceleration": 6, "time": 25}
 SPEED_KNOTS = 6
 FEATURES = 16  # waves over the joint space
 _SEED = 7

@@ -10,6 +10,7 @@ from app.diagnosis.motion.scoring import Solution
 from app.diagnosis.motion.system import System
 
 EXCESS = 0.10  # of the stated variance
+ABOVE = 0.05  # of the variance that free curves leave
 LONGEST_MEMORY = 0.25  # s: sensors and drives forget faster than this
 _SURE = 5.0  # standard deviations
 
@@ -22,11 +23,13 @@ class Remains:
         ratio: (n,) variance of the residual over the stated one; nan where none is stated.
         memory: (n,) time [s] over which the residual hangs together.
         energy: (n,) what is left over, in squares of the whitened noise; 0 where nothing is.
+        above: (n,) variance over that of a fit with every law and curve at once; nan where it is no larger.
     """
 
     ratio: np.ndarray
     memory: np.ndarray
     energy: np.ndarray
+    above: np.ndarray
 
     def worst(self) -> int | None:
         """The joint with the most left over, or None."""
@@ -38,6 +41,10 @@ class Remains:
             if np.isfinite(self.ratio[j]) and self.ratio[j] > 1 + EXCESS:
                 out.append(
                     f"joint {j + 1}: what remains is {np.sqrt(self.ratio[j]):.2f} times the stated noise"
+                )
+            elif np.isfinite(self.above[j]):
+                out.append(
+                    f"joint {j + 1}: what remains is {np.sqrt(self.above[j]):.2f} times what free curves leave"
                 )
             else:
                 out.append(
@@ -54,6 +61,7 @@ def remains_of(system: System, solution: Solution, stated: np.ndarray | None) ->
     """
     n = system.joints
     ratio, memory, energy = np.full(n, np.nan), np.zeros(n), np.zeros(n)
+    above = np.full(n, np.nan)
     for j, (part, col, pos, whitener) in enumerate(
         zip(system.parts, solution.columns, solution.positions, system.whiteners, strict=True)
     ):
@@ -71,6 +79,9 @@ def remains_of(system: System, solution: Solution, stated: np.ndarray | None) ->
             ratio[j] = (spread / stated[j]) ** 2
             if ratio[j] > 1 + EXCESS + _SURE * np.sqrt(2 / free):
                 energy[j] = count * (ratio[j] - 1) * (stated[j] / whitener.sigma) ** 2
-        elif memory[j] > max(LONGEST_MEMORY, 6 * system.samples.step):
-            energy[j] = count * (spread / whitener.sigma) ** 2
-    return Remains(ratio, memory, energy)
+        if level > 1 + ABOVE + _SURE * np.sqrt(2 / count):
+            energy[j] = max(energy[j], count * (level - 1))
+            above[j] = level
+        if stated is None and memory[j] > max(LONGEST_MEMORY, 6 * system.samples.step):
+            energy[j] = max(energy[j], count * (spread / whitener.sigma) ** 2)
+    return Remains(ratio, memory, energy, above)

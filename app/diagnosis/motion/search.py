@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
@@ -18,7 +19,9 @@ from app.diagnosis.result import Progress
 FLIPS = 199
 LEVEL = 0.01
 MOST_TERMS = 40
+MOST_EVENTS = {"payload_change": 2, "contact": 3}
 LOUD = 0.02  # share of what is left that a law must explain to come in past a wild null
+SHAPELY = 0.03  # share of its gain by which a law with a shape must beat one without
 BETTER = 2.0  # an exchange must be worth this much
 DROP = 8.0  # a term must be worth this much beyond the Bayesian criterion
 
@@ -59,7 +62,11 @@ class Search:
         """Scores of everything that may still come in."""
         taken = {_key(g) for g in selected[self.known :]}
         groups = [g for g in self.groups if not g.base and _key(g) not in taken]
-        return score_all(self.system, solution, groups, self.windows, list(self.windows))
+        count = Counter(g.label for g in selected)
+        bases = [
+            g for g in self.windows if count[g.label] < MOST_EVENTS.get(g.label, 1) and len(self.windows[g])
+        ]
+        return score_all(self.system, solution, groups, self.windows, bases)
 
     def forward(self, progress: Progress, start: list[Term], stay: int = 0) -> list[Term]:
         """Takes the best candidate as long as it beats the null and held-out loss falls.
@@ -129,15 +136,16 @@ class Search:
             if term.group.joint is None:
                 continue
             others = [t.group for k, t in enumerate(terms) if k != i]
-            own = self.losses_without([t.group for t in terms])[i] - penalty * _freedom(term.group)
+            gain = self.losses_without([t.group for t in terms])[i]
+            own = gain - penalty * _freedom(term.group)
             taken = {_key(g) for g in others[self.known :]}
             here = [
                 g for g in self.groups if g.joint == term.group.joint and not g.base and _key(g) not in taken
             ]
             solution = solve(self.system, others, self.prior)
             board = score_all(self.system, solution, here, {}, [])
-            worth = board.gain - penalty * np.array([_freedom(c.group) for c in board.candidates])
-            for index in np.argsort(-worth)[:4]:
+            first = board.gain - penalty * np.array([_freedom(c.group) for c in board.candidates])
+            for index in np.argsort(-first)[:4]:
                 group = board.candidates[index].group
                 if group.label == term.group.label and group.where == term.group.where:
                     continue
@@ -145,14 +153,16 @@ class Search:
                 if not self._possible(group, others):
                     continue
                 swapped = [*others[:i], group, *others[i:]]
-                gain = self.losses_without(swapped)[i] - penalty * _freedom(group)
-                if gain > own + BETTER:
+                worth = self.losses_without(swapped)[i] - penalty * _freedom(group)
+                # Dry and viscous friction are in every joint: what needs a shape must be plainly better.
+                least = BETTER + SHAPELY * gain * (bool(group.shape) - bool(term.group.shape))
+                if worth > own + least:
                     terms = [
                         *terms[:i],
                         Term(group, term.p_value, board.candidates[index].visible),
                         *terms[i + 1 :],
                     ]
-                    own = gain
+                    own = worth
         return terms
 
     def backward(self, terms: list[Term], keep: int = 0) -> list[Term]:

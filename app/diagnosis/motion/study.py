@@ -23,7 +23,8 @@ from app.diagnosis.result import Progress
 from app.kinematics import RobotModel
 from app.kinematics.robot import GRAVITY
 
-MOST_ROUNDS = 4
+MOST_ROUNDS = 3
+LEAST_BEFORE = 0.06  # share of the log's usable rows on either side of a change
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,6 +104,7 @@ def examine(
         events = {_event(t) for t in start}
         stay += len(known)
         terms = search.exchange(search.forward(tell, [*known, *start], stay), stay)
+        terms = search.forward(tell, terms, stay)
         fit = exact_fit(system, prior, terms)
         kept = search.backward(fit.terms, stay)
         if len(kept) < len(fit.terms):
@@ -229,16 +231,21 @@ def prepare(
     scale = _prior_scale(system, factor)
     prior = np.linalg.inv(factor @ factor.T) / scale**2
     groups = [g for g, _ in shared] + [g for part in local for g, _ in part]
-    windows = {g: _windows(g, samples.block_count) for g in groups if g.base}
+    windows = {g: _windows(g, samples) for g in groups if g.base}
     return system, groups, prior, scale, windows
 
 
-def _windows(group: Group, blocks: int) -> np.ndarray:
-    """(w, 2) block edges an event may have."""
+def _windows(group: Group, samples: Samples) -> np.ndarray:
+    """(w, 2) block edges an event may have; a change leaves enough of the log before and after it."""
     assert group.law is not None
+    blocks = samples.block_count
     if group.law.key == "payload_change":
-        return np.array([(a, blocks) for a in range(2, blocks - 1)])
-    return np.array([(a, b) for a in range(blocks) for b in range(a + 1, min(a + blocks // 2, blocks) + 1)])
+        rows = np.bincount(samples.blocks, samples.usable.sum(axis=1), blocks)
+        before = np.concatenate([[0.0], np.cumsum(rows)]) / max(rows.sum(), 1.0)
+        inside = (before > LEAST_BEFORE) & (before < 1 - LEAST_BEFORE)
+        return np.array([(a, blocks) for a in np.flatnonzero(inside[:-1])]).reshape(-1, 2)
+    longest = blocks // 3
+    return np.array([(a, b) for a in range(blocks) for b in range(a + 1, min(a + longest, blocks) + 1)])
 
 
 def _prior_scale(system: System, factor: np.ndarray) -> float:

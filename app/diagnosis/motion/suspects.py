@@ -13,9 +13,10 @@ from app.kinematics.dynamics import inverse_dynamics
 from app.recordings import Table
 from app.units import DEG_PER_RAD
 
-GROSS = 0.35  # share of the torques' variance that is left unexplained before anything is suspected
-BETTER = 0.25  # of that must be left with the columns put right
-ENOUGH = 1200
+GROSS = 0.04  # share of the torques' variance that is left unexplained before anything is suspected
+BETTER = 0.1  # of that must be left with the columns put right
+ENOUGH = 600
+WEAK = 0.02  # a torque that varies less than this share of the largest cannot speak
 
 
 def check_columns(
@@ -86,11 +87,12 @@ def check_columns(
 def _left(robot: RobotModel, q: np.ndarray, qd: np.ndarray, qdd: np.ndarray, tau: np.ndarray) -> float:
     """Mean share of each joint's torque variance left by the description with friction and offset fitted."""
     residual = tau - inverse_dynamics(robot, q, qd, qdd)
-    shares = []
+    shares, least = [], len(q) * (WEAK * float(np.std(tau, axis=0).max())) ** 2
     for j in range(q.shape[1]):
         spread = float(np.sum((tau[:, j] - tau[:, j].mean()) ** 2))
         if spread <= 0:
             continue
+        spread = max(spread, least)
         columns = np.stack([np.sign(qd[:, j]), qd[:, j], qdd[:, j], np.ones(len(q))], axis=1)
         theta, *_ = np.linalg.lstsq(columns, residual[:, j], rcond=1e-8)
         left = residual[:, j] - columns @ theta

@@ -1,0 +1,146 @@
+"""Joint logs of a six-axis arm: the diagnosis by length, and the fit beneath it against finite differences and FIGAROH.
+
+Run: python -m benchmarks.motion_diagnosis [SAMPLES ...]
+"""
+
+from __future__ import annotations
+
+import resource
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+import numpy as np
+import pinocchio as pin
+
+from app.kinematics import load_robot
+from app.kinematics.dynamics import inertial_parameters, inverse_dynamics, torque_regressor
+from benchmarks.rows import Row
+
+LENGTHS = {10_000: 0.3, 100_000: 2.0, 1_000_000: 20.0}  # samples -> aim [s]
+FIT_SAMPLES = 2000
+_ONE = """
+import resource, sys, time
+from app.diagnosis.motion import diagnose
+from app.kinematics import load_robot
+from app.recordings import read_table
+robot = load_robot("ur10e")
+start = time.process_time()
+found = diagnose(read_table(sys.argv[1]), robot)
+names = ";".join(f"{f.effect}:{f.where.get('joint')}" for f in found.findings)
+print(time.process_time() - start, resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024, found.verdict, names)
+"""
+
+
+def swinging(samples: int, rate: float = 500.0) -> tuple[np.ndarray, ...]:
+    """t, q, qd, qdd of a UR10e on sums of sines."""
+    rng = np.random.default_rng(1)
+    t = np.arange(samples) / rate
+    q, qd, qdd = np.zeros((3, samples, 6))
+    for j in range(6):
+        for k in range(1, 5):
+            a, phase, w = rng.uniform(0.1, 0.3), rng.uniform(0, 6.28), 2 * np.pi * 0.1 * k
+            q[:, j] += a * np.sin(w * t + phase)
+            qd[:, j] += a * w * np.cos(w * t + phase)
+            qdd[:, j] -= a * w**2 * np.sin(w * t + phase)
+    return t, q - np.array([0, 1.3, -1.2, 1.0, 0.5, 0]), qd, qdd
+
+
+def write(path: Path, samples: int) -> None:
+    """A log with dry and viscous friction in every joint."""
+    robot = load_robot("ur10e")
+    t, q, qd, qdd = swinging(samples)
+    level = np.array([8.0, 8.0, 5.0, 1.5, 1.5, 1.0])
+    torque = inverse_dynamics(robot, q, qd, qdd) + level * (np.sign(qd) + 1.5 * qd)
+    torque += np.random.default_rng(2).normal(size=torque.shape) * 0.03 * level
+    names = ["t_s", *[f"q{j}_rad" for j in range(1, 7)], *[f"tau{j}_Nm" for j in range(1, 7)]]
+    with path.open("w") as file:
+        file.write("# kind: motion\n" + ",".join(names) + "\n")
+        np.savetxt(file, np.column_stack([t, q, torque]), fmt="%.7g", delimiter=",")
+
+
+def fits() -> tuple[float, float, float]:
+    """Seconds of one linear fit of the links' parameters: ours, finite differences, FIGAROH (nan if absent)."""
+    robot = load_robot("ur10e")
+    _, q, qd, qdd = swinging(FIT_SAMPLES, 50.0)
+    torque = inverse_dynamics(robot, q, qd, qdd)
+    start = time.process_time()
+    Y = torque_regressor(robot, q, qd, qdd).reshape(-1, 60)
+    np.linalg.lstsq(Y.T @ Y + 1e-9 * np.eye(60), Y.T @ torque.reshape(-1), rcond=None)
+    ours = time.process_time() - start
+    start = time.process_time()
+    nominal, step = inertial_parameters(robot), 1e-6
+    columns = np.empty((torque.size, 60))
+    for k in range(60):
+        moved = nominal.copy()
+        moved[k] += step
+        model = pin.Model(robot.model)
+        for link in range(6):
+            model.inertias[link + 1] = pin.Inertia.FromDynamicParameters(moved[10 * link : 10 * link + 10])
+        data = model.createData()
+        changed = np.array(
+            [pin.rnea(model, data, a, b, c).copy() for a, b, c in zip(q, qd, qdd, strict=True)]
+        )
+        columns[:, k] = ((changed - torque) / step).reshape(-1)
+    np.linalg.lstsq(columns, torque.reshape(-1), rcond=None)
+    return ours, time.process_time() - start, _figaroh(robot.model, q, qd, qdd, torque)
+
+
+def _figaroh(model, q, qd, qdd, torque) -> float:
+    try:
+        from figaroh.tools.regressor import build_regressor_basic  # pyright: ignore[reportMissingImports]
+    except ImportError:
+        return float("nan")
+
+    class Arm:
+        def __init__(self):
+            self.model, self.data = model, model.createData()
+
+    options = {
+        "is_joint_torques": True, "is_external_wrench": False, "has_friction": False,
+        "has_actuator_inertia": False, "has_joint_offset": False, "force_torque": None,
+    }  # fmt: skip
+    start = time.process_time()
+    W = build_regressor_basic(Arm(), q, qd, qdd, options)
+    np.linalg.lstsq(W, torque.T.reshape(-1), rcond=None)
+    return time.process_time() - start
+
+
+def run(lengths: tuple[int, ...] = tuple(LENGTHS)) -> list[Row]:
+    """Measures and gives the rows; process time, so that other work on the machine does not count."""
+    out = []
+    ours, differences, figaroh = fits()
+    out.append(
+        Row(
+            f"links' parameters, {FIT_SAMPLES} samples", ours, differences, "finite differences of pin's rnea"
+        )
+    )
+    if np.isfinite(figaroh):
+        out.append(
+            Row(f"links' parameters, {FIT_SAMPLES} samples", ours, figaroh, "FIGAROH regressor + lstsq")
+        )
+    with tempfile.TemporaryDirectory() as folder:
+        for samples in lengths:
+            path = Path(folder) / "log.csv"
+            write(path, samples)
+            said = subprocess.run(
+                [sys.executable, "-c", _ONE, str(path)], capture_output=True, text=True, check=True
+            ).stdout.split()
+            aim = LENGTHS.get(samples)
+            out.append(Row(f"diagnosis, {samples} samples ({said[2]})", float(said[0]), aim=aim))
+            out.append(Row(f"its memory, {samples} samples", float(said[1]), unit="MB", aim=2048.0))
+    return out
+
+
+if __name__ == "__main__":
+    chosen = tuple(int(a) for a in sys.argv[1:]) or tuple(LENGTHS)
+    for row in run(chosen):
+        peer = (
+            f"  {row.peer:10.3f} {row.peer_name}, ours is {row.peer / row.ours:.1f} times faster"
+            if row.peer
+            else ""
+        )
+        print(f"{row.name:<44}{row.ours:>10.3f} {row.unit}  aim {row.aim}{peer}")
+    print(f"peak of this process {resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024:.0f} MB")
