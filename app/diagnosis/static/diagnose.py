@@ -47,7 +47,7 @@ def diagnose(
     known = ()
     if model is not None:
         recording = undone(model, recording, robot)
-        known = held_terms(model, recording.situation)
+        known = held_terms(model, recording.situation, recording.file)
     tick(0.05, "fitting base and tool")
     written = rewritten(recording, robot, known)
     outcome = search(written, known, seed, tick)

@@ -34,7 +34,7 @@ def saved_model(
     for term in (*fitted.held, *fitted.terms):
         if term.effect.key not in effects():
             continue  # a curve without a name is no model
-        if spoken is not None and id(term) not in spoken:
+        if spoken is not None and term not in fitted.held and id(term) not in spoken:
             continue
         quantities = term.effect.quantities(fitted.recording.situation, term.place)
         parameters = {q.name: float(v) for q, v in zip(quantities, term.values, strict=True)}
@@ -50,8 +50,13 @@ def saved_model(
     return SavedModel("static", robot, tuple(out), nuisance, source)
 
 
-def held_terms(model: SavedModel, situation: Situation) -> tuple[Term, ...]:
+def held_terms(model: SavedModel, situation: Situation, file: str = "") -> tuple[Term, ...]:
     """A saved model's effects as terms for this situation.
+
+    A step belongs to the rows of the recording it was found in; in any other it has happened before the first.
+
+    Args:
+        file: the recording these rows are from.
 
     Raises:
         UnknownNameError: an effect or parameter this program does not have.
@@ -65,7 +70,10 @@ def held_terms(model: SavedModel, situation: Situation) -> tuple[Term, ...]:
             raise UnknownNameError(entry.effect, available=known, what="static effect in the saved model")
         effect = known[entry.effect]
         fixed = {k[len(_FIXED) :]: v for k, v in entry.parameters.items() if k.startswith(_FIXED)}
-        place = Place(dict(entry.where), fixed, scan="from_row" in entry.where)
+        where = dict(entry.where)
+        if "from_row" in where and file != model.source:
+            where["from_row"] = 1
+        place = Place(where, fixed, scan="from_row" in where)
         names = [q.name for q in effect.quantities(situation, place)]
         missing = [name for name in names if name not in entry.parameters]
         if missing:

@@ -19,6 +19,8 @@ from app.diagnosis.static.serial import stretch, stretch_flips
 LEVEL = 0.01
 MOST_TERMS = 6
 NULLS = 199
+#: Share of an effect's signature that base, tool and the rest must leave for it to be named.
+LEAST_VISIBLE = 0.05
 _TRIES = 8  # candidates looked at before a round is given up
 _ALIKE = 0.05  # difference of -log10 p below which two candidates count as exactly alike
 _BETTER = 0.5  # difference of -log10 p that makes a swap worth a fit
@@ -111,7 +113,10 @@ def _take(
         if not p_value <= level:
             return None
         candidate = scores.candidates[index]
-        if key_of(candidate.effect.key, candidate.place.where) in present:
+        if (
+            scores.visible[index] < LEAST_VISIBLE
+            or key_of(candidate.effect.key, candidate.place.where) in present
+        ):
             continue
         trial = fit(
             now.recording, now.setup, (*now.terms, new_term(candidate, now)), now.weights, held=now.held
@@ -205,6 +210,8 @@ def _better(now: Fitted, index: int, wanted: tuple[Candidate, ...]) -> Fitted | 
         candidate = scores.candidates[at]
         label = key_of(candidate.effect.key, candidate.place.where)
         if label in others or label == key_of(term.effect.key, term.where):
+            continue
+        if scores.visible[at] < LEAST_VISIBLE:
             continue
         margin = 0.01 if _same_but_row(candidate, term) else _BETTER
         if scores.score[at] < mine + margin:
