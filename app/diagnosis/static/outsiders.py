@@ -17,7 +17,7 @@ _STEEPNESS = (1.0, 2.0, 5.0)  # over half the driver's range
 #: BIC by which an outsider must beat one named law before its name is withheld.
 MARGIN = 1.0
 #: Two named laws of one driver on one joint are less likely than one without a name: they must beat it by this.
-COMBINED = 4.0
+COMBINED = 9.2
 
 
 def outside_laws(situation: Situation, joint: int, family: str) -> np.ndarray:

@@ -6,7 +6,8 @@ import numpy as np
 
 from app.diagnosis.static.fit import Fitted
 
-_LONGEST = 0.1  # share of the poses one stretch may take
+_LONGEST = 0.15  # share of the poses one stretch may take
+_GENEROUS = 2.0  # stretches must be longer than what they share, or neighbours still tell of each other
 _LAGS = 20
 
 
@@ -24,7 +25,11 @@ def stretch(fitted: Fitted) -> int:
         if correlation < threshold:
             break
         total += correlation
-    return int(np.clip(np.ceil(1.0 + 2.0 * total), 1, max(1, int(_LONGEST * count)))) if total else 1
+    return (
+        int(np.clip(np.ceil(_GENEROUS * (1.0 + 2.0 * total)), 1, max(1, int(_LONGEST * count))))
+        if total
+        else 1
+    )
 
 
 def _by_pose(fitted: Fitted) -> np.ndarray:
