@@ -15,7 +15,7 @@ from app.diagnosis.motion.log import Log, read_log
 from app.diagnosis.motion.prior import MASS
 from app.diagnosis.motion.sampling import Motion, motion_of
 from app.diagnosis.motion.study import Given, examine
-from app.diagnosis.motion.suspects import check_columns
+from app.diagnosis.motion.suspects import HOPELESS, check_columns
 from app.diagnosis.result import Diagnosis, Progress
 from app.errors import CellValueError
 from app.kinematics import RobotModel
@@ -74,7 +74,8 @@ def _ready(table: Table, robot: RobotModel) -> tuple[Log, Motion, frozenset[str]
         )
         log = replace(log, y=log.y * gains, current=False, notes=(*log.notes, note))
         without = frozenset({"torque_constant"})
-    check_columns(log, robot, motion[:3], log.y, table)
+    if check_columns(log, robot, motion[:3], log.y, table) > HOPELESS:
+        log = replace(log, foreign=True)
     return log, motion, without
 
 

@@ -34,6 +34,7 @@ class Log:
         step: usual sampling step [s].
         dropped: line numbers of rows set aside.
         notes: what a person should know of it.
+        foreign: True where the torques do not follow the description at all.
     """
 
     t: np.ndarray
@@ -50,6 +51,7 @@ class Log:
     dropped: np.ndarray
     stated_noise: np.ndarray | None = None
     notes: tuple[str, ...] = field(default=())
+    foreign: bool = False
 
 
 def read_log(table: Table, robot: RobotModel) -> Log:

@@ -21,6 +21,7 @@ LEVEL = 0.01
 MOST_TERMS = 40
 MOST_EVENTS = {"payload_change": 2, "contact": 3}
 LOUD = 0.02  # share of what is left that a law must explain to come in past a wild null
+EVENT = 1.8  # times the null an event's score must be
 SHAPELY = 0.03  # share of its gain by which a law with a shape must beat one without
 BETTER = 2.0  # an exchange must be worth this much
 DROP = 8.0  # a term must be worth this much beyond the Bayesian criterion
@@ -93,6 +94,13 @@ class Search:
                 # used for the fit must speak, and speak loudly.
                 if board.score[index] <= bar and board.gain[index] < LOUD * solution.rss:
                     break
+                # Events are sought at very many places: noise that remembers finds one easily.
+                if (
+                    candidate.group.law is not None
+                    and candidate.group.law.windowed
+                    and board.score[index] < EVENT * bar
+                ):
+                    continue
                 if board.score[index] <= sure or (_key(candidate.group), candidate.window) in refused:
                     continue
                 group = self._settle(candidate, selected)

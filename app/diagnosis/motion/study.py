@@ -122,6 +122,9 @@ def examine(
         stated = None if note.startswith("the reference follows the same") else stated
     done = corrected_by(corrections, first, fit)
     judgement = judge(search, fit, stated, done)
+    if log.foreign:
+        reason = "the torques do not follow the description at all: another arm, or columns mixed up; nothing is named"
+        judgement = replace(judgement, named=[False] * len(fit.terms), reasons=(reason,), leftover_p=1 / 200)
     notes = (note,) if note else ()
     return Study(
         log,

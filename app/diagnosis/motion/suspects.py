@@ -13,6 +13,7 @@ from app.kinematics.dynamics import inverse_dynamics
 from app.recordings import Table
 from app.units import DEG_PER_RAD
 
+HOPELESS = 0.8  # share left beyond which the torques do not belong to this arm at all
 GROSS = 0.04  # share of the torques' variance that is left unexplained before anything is suspected
 BETTER = 0.1  # of that must be left with the columns put right
 ENOUGH = 600
@@ -25,20 +26,23 @@ def check_columns(
     motion: tuple[np.ndarray, np.ndarray, np.ndarray],
     torque: np.ndarray,
     table: Table,
-) -> None:
+) -> float:
     """Refuses a log whose columns are plainly not what they are called.
+
+    Returns:
+        the share of the torques' variance that the description leaves, friction fitted.
 
     Raises:
         InputError: which columns, and what they look like.
     """
     if not robot.has_inertials:
-        return
+        return 0.0
     index = np.unique(np.linspace(0, len(log.t) - 1, ENOUGH).astype(int))
     q, qd, qdd = (values[index] for values in motion)
     tau = torque[index]
     usual = _left(robot, q, qd, qdd, tau)
     if usual < GROSS:
-        return
+        return usual
     trials: list[tuple[float, str, str]] = []
     n = robot.joint_count
     for a, b in combinations(range(n), 2):
@@ -82,6 +86,8 @@ def check_columns(
             column=named,
             expected="columns in the robot's joint order, sense and unit",
         )
+
+    return usual
 
 
 def _left(robot: RobotModel, q: np.ndarray, qd: np.ndarray, qdd: np.ndarray, tau: np.ndarray) -> float:
