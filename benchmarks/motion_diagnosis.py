@@ -101,6 +101,7 @@ def _figaroh(model, q, qd, qdd, torque) -> float:
     options = {
         "is_joint_torques": True, "is_external_wrench": False, "has_friction": False,
         "has_actuator_inertia": False, "has_joint_offset": False, "force_torque": None,
+        "act_idxv": list(range(6)), "act_Jid": list(range(1, 7)),
     }  # fmt: skip
     start = time.process_time()
     W = build_regressor_basic(Arm(), q, qd, qdd, options)
