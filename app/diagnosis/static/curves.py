@@ -14,10 +14,10 @@ _FLAT = 1e-9
 
 
 def smooth(driver: np.ndarray, degree: int) -> np.ndarray:
-    """(m, degree) Legendre polynomials of degree 1 … `degree` of the driver brought to -1 … 1."""
+    """(m, degree) Legendre polynomials of degree 1 … `degree` of the driver brought to -1 … 1; zeros where it rests."""
     low, high = float(driver.min()), float(driver.max())
     if high - low < _FLAT:
-        return np.zeros((len(driver), 0))
+        return np.zeros((len(driver), degree))
     u = 2.0 * (driver - low) / (high - low) - 1.0
     return np.polynomial.legendre.legvander(u, degree)[:, 1:]
 

@@ -127,6 +127,7 @@ def stand_in(fitted: Fitted, doubt: Doubt) -> Term | None:
     place = joint_curve_place(doubt.where, doubt.curve)
     if any(t.effect is JOINT_CURVE and t.place == place for t in fitted.terms):
         return None
-    count = shape_functions(fitted.recording.situation, doubt.where, doubt.curve).shape[1]
+    functions = shape_functions(fitted.recording.situation, doubt.where, doubt.curve)
+    count = functions.shape[1] if functions.any() else 0
     # A constant goes with it: the zero of a curve without a name is no finding.
     return Term(JOINT_CURVE, place, np.zeros(count + 1), tacit=True) if count else None

@@ -57,7 +57,7 @@ def _groups(fitted: Fitted) -> list[_Group]:
     out: list[_Group] = []
 
     def add(where: dict, block: np.ndarray, functions: np.ndarray) -> None:
-        if functions.shape[1]:
+        if functions.any():
             shaped = block[:, :, :, None] * functions[:, None, None, :]
             out.append(_Group(where, shaped.reshape(*block.shape[:2], -1)))
 
