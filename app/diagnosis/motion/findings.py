@@ -42,8 +42,11 @@ def build(study: Study, robot: RobotModel, file: str) -> Diagnosis:
     if verdict == "clean":
         leftover = Leftover(judgement.leftover_p, {})
     spread = float(np.sqrt(np.mean([w.spread**2 for w in study.system.whiteners if w.weight.any()])))
-    noise = Noise(spread * np.sqrt(samples.window), "Nm", "residual")
     log = study.log
+    if log.stated_noise is not None:
+        noise = Noise(float(np.sqrt(np.mean(log.stated_noise**2))), "Nm", "stated")
+    else:
+        noise = Noise(float(spread * np.sqrt(samples.window)), "Nm", "residual")
     centre = samples.index.reshape(-1, samples.window)[:, samples.window // 2]
     state = samples.state
     n = robot.joint_count
