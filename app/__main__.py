@@ -6,7 +6,12 @@ import os
 import sys
 import warnings
 
-from app.cli import run
+# Before numpy is loaded, here and in every worker: the matrices are small, and threads that wait for each other
+# make a search several times slower.
+for _library in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
+    os.environ.setdefault(_library, "1")
+
+from app.cli import run  # noqa: E402
 
 
 def main() -> None:

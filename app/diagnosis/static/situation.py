@@ -103,15 +103,14 @@ def situation_for(
     chain = robot.chain
     m = len(q)
     frames = chain.frames(q)
-    masses, coms = (chain.masses, chain.coms) if robot.has_inertials else lumped_masses(chain)
-    computed = gravity_torques(chain, frames, masses, coms)
-    if payload is not None:
-        com = np.zeros(3) if payload_com is None else payload_com
-        computed = computed + payload_torques(chain, frames, payload, com)
+    source = "measured"  # in holding sign already, see sensed.py
     if torque is None:
-        source, torque = "description" if robot.has_inertials else "assumed", computed
-    else:
-        source, torque = "measured", _holding_sign(torque, computed) * torque
+        source = "description" if robot.has_inertials else "assumed"
+        masses, coms = (chain.masses, chain.coms) if robot.has_inertials else lumped_masses(chain)
+        torque = gravity_torques(chain, frames, masses, coms)
+        if payload is not None:
+            com = np.zeros(3) if payload_com is None else payload_com
+            torque = torque + payload_torques(chain, frames, payload, com)
     approach, move = approach_signs(q, np.zeros(m, int) if sessions is None else sessions)
     return Situation(
         chain=chain,
@@ -128,8 +127,3 @@ def situation_for(
         temperature=None if temperature is None else temperature - temperature[0],
         order=np.arange(1, m + 1) if order is None else order,
     )
-
-
-def _holding_sign(measured: np.ndarray, computed: np.ndarray) -> float:
-    """-1 where a controller counts its torques against the load, 1 where it counts what holds the arm."""
-    return -1.0 if float(np.sum(measured * computed)) < 0.0 else 1.0

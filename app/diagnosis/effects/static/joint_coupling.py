@@ -12,6 +12,9 @@ from app.diagnosis.static.effect import (
     number,
 )
 
+#: So near to one, a coupling is a way to count and no fault of the gears.
+WHOLE = 0.02
+
 
 class JointCoupling(StaticEffect):
     key = "joint_coupling"
@@ -40,10 +43,14 @@ class JointCoupling(StaticEffect):
         return joint_driver(columns, place.where["joint"], source)
 
     def sentence(self, place, parameters):
-        return (
+        text = (
             f"{joint_name(place).capitalize()} is moved by joint {place.where['source_joint']}: "
             f"{number(parameters[0])} of its angle."
         )
+        if abs(abs(parameters[0].value) - 1.0) < WHOLE:
+            # FANUC and arms with a parallel link count the forearm against the horizon.
+            return text + " The controller may show it against the horizon, and not against its neighbour."
+        return text
 
 
 EFFECT = JointCoupling()
