@@ -13,6 +13,10 @@ from app.kinematics import RobotModel
 from app.units import DEG_PER_RAD, MM_PER_M
 
 SIGN, SWAP, QUARTER, ANGLE_UNIT, LENGTH_UNIT, INVERSE = (float(i) for i in range(6))
+#: The kinds, the one that people mix up most first.
+LIKELIHOOD = (SIGN, INVERSE, ANGLE_UNIT, LENGTH_UNIT, QUARTER, SWAP)
+#: rad: a recording that never leaves this was written in degrees and read as less; one beyond TURNS, the reverse.
+HARDLY, TURNS = 0.2, 4.0 * np.pi
 #: A convention must take this share of the misfit away before it is believed.
 FALL = 1.0 / 3.0
 
@@ -79,7 +83,10 @@ def conventions(recording: StaticRecording) -> Iterator[Convention]:
     if recording.orientations is not None:
         yield Convention(Place({"body": "instrument"}, {"kind": INVERSE}))
     if not prismatic.any():
-        for factor in (DEG_PER_RAD, 1.0 / DEG_PER_RAD):
+        # Angles that are a fraction of a degree throughout, or tens of turns: else an arm that hardly moves fits all.
+        largest = float(np.abs(recording.q).max())
+        factors = [DEG_PER_RAD] * (largest < HARDLY) + [1.0 / DEG_PER_RAD] * (largest > TURNS)
+        for factor in factors:
             yield Convention(Place({"body": "instrument"}, {"kind": ANGLE_UNIT, "factor": factor}))
     if recording.mode != "targets":
         for factor in (MM_PER_M, 1.0 / MM_PER_M):

@@ -6,11 +6,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from app.diagnosis.static.conventions import FALL, Convention, conventions
+from app.diagnosis.static.conventions import FALL, LIKELIHOOD, Convention, conventions
 from app.diagnosis.static.fit import Fitted, Term
 from app.diagnosis.static.noise import known_noise, position_rms
 from app.diagnosis.static.plain import plain_fit
+from app.diagnosis.static.reading import renumbered
 from app.diagnosis.static.recording import StaticRecording
+from app.diagnosis.static.robust import outlier_rows
 from app.errors import TeachframeError
 from app.kinematics import RobotModel
 from app.units import from_mm
@@ -22,6 +24,8 @@ GROSS_SIGMA = 20.0
 HOPELESS = from_mm(20.0)
 _MOST = 2
 _ALIKE = 1.5
+#: Two misfits that differ by less than this share are the same.
+_TIE = 0.02
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,24 +49,47 @@ def rewritten(recording: StaticRecording, robot: RobotModel, held: tuple[Term, .
     for _ in range(_MOST):
         plain = plain_fit(recording, held)
         first = first or plain
-        before = _misfit(plain)
+        before = _misfit(_without_strays(recording, held))
         sigma = known_noise(recording).sigma
         if before < GROSS or (sigma is not None and before < GROSS_SIGMA * sigma):
             break
         tried = []
         for convention in conventions(recording):
             try:
-                trial = plain_fit(convention.undone(recording, robot), held, quick=True)
+                trial = _without_strays(convention.undone(recording, robot), held)
             except (TeachframeError, np.linalg.LinAlgError):
                 continue
             tried.append((_scaled_misfit(trial, recording), convention))
         tried.sort(key=lambda pair: pair[0])
         if not tried or tried[0][0] > FALL * before:
             break
-        alike = tuple(c for rms, c in tried[1:] if rms < _ALIKE * tried[0][0])
-        found.append((tried[0][1], alike))
-        recording = tried[0][1].undone(recording, robot)
+        chosen = likeliest(tried)
+        alike = tuple(c for rms, c in tried if c is not chosen and rms < _ALIKE * tried[0][0])
+        found.append((chosen, alike))
+        recording = chosen.undone(recording, robot)
     return Rewritten(recording, tuple(found), first if found else None)
+
+
+def _without_strays(recording: StaticRecording, held: tuple[Term, ...]) -> Fitted:
+    """A quick fit to the rows that belong together: a few wrong rows would hide which convention is right."""
+    fitted = plain_fit(recording, held, quick=True)
+    for _ in range(2):
+        out = outlier_rows(fitted)
+        if not out.any():
+            break
+        recording = renumbered(recording.subset(~out))
+        fitted = plain_fit(recording, held, quick=True)
+    return fitted
+
+
+def likeliest(tried: list[tuple[float, Convention]]) -> Convention:
+    """The convention that leaves least; among those that leave the same, the one people mix up most.
+
+    A joint that counts the other way round and its neighbour's zero half a turn away are the very same motion.
+    """
+    level = (1.0 + _TIE) * min(rms for rms, _ in tried)
+    ties = [convention for rms, convention in tried if rms <= level]
+    return min(ties, key=lambda convention: LIKELIHOOD.index(convention.place.fixed["kind"]))
 
 
 def _misfit(fitted: Fitted) -> float:
