@@ -26,6 +26,8 @@ _MOST = 2
 _ALIKE = 1.5
 #: Two misfits that differ by less than this share are the same.
 _TIE = 0.02
+#: Share of its spread that every joint keeps when rows are set aside.
+_STILL_MOVES = 0.8
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,7 +77,9 @@ def _without_strays(recording: StaticRecording, held: tuple[Term, ...]) -> Fitte
     fitted = plain_fit(recording, held, quick=True)
     for _ in range(2):
         out = outlier_rows(fitted)
-        if not out.any():
+        # Rows in which alone a joint moves are no strays: without them its sign would be anybody's guess.
+        moved = np.std(recording.q[~out], axis=0) if not out.all() else np.zeros(recording.q.shape[1])
+        if not out.any() or np.any(moved < _STILL_MOVES * np.std(recording.q, axis=0)):
             break
         recording = renumbered(recording.subset(~out))
         fitted = plain_fit(recording, held, quick=True)

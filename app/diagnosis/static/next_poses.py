@@ -95,7 +95,7 @@ def _separation(
 ) -> np.ndarray:
     """(m,) information a pose adds for A against B."""
     here = _imagined(robot, fitted, poses)
-    weights = np.broadcast_to(fitted.weights.max(axis=0), (len(poses), fitted.weights.shape[1]))
+    weights = np.broadcast_to(fitted.weights.max(axis=0), (here.size, fitted.weights.shape[1]))
     with_a = fit(here, fitted.setup, fitted.terms, weights, held=fitted.held, iterations=0)
     terms = list(fitted.terms)
     terms[index] = new_term(rival, fitted)
@@ -112,8 +112,14 @@ def _separation(
 
 
 def _imagined(robot: RobotModel, fitted: Fitted, poses: np.ndarray) -> StaticRecording:
-    """A recording of those poses whose measured values do not matter."""
+    """A recording of those poses, in the first session, whose measured values do not matter.
+
+    One row a further session follows them, so that the unknowns are those of the recording itself.
+    """
     old = fitted.recording
+    others = np.arange(1, old.session_count)
+    session = np.concatenate([np.zeros(len(poses), int), others])
+    poses = np.concatenate([poses, np.repeat(poses[:1], len(others), axis=0)])
     m = len(poses)
     situation = situation_for(robot, poses, declared_compliance=old.situation.declared_compliance)
     situation = replace(
@@ -131,7 +137,7 @@ def _imagined(robot: RobotModel, fitted: Fitted, poses: np.ndarray) -> StaticRec
         orientations=None if old.orientations is None else np.broadcast_to(np.eye(3), (m, 3, 3)),
         lengths=None if old.lengths is None else np.zeros(m),
         target=np.zeros(m, int),
-        session=np.zeros(m, int),
+        session=session,
         pose=np.arange(m),
         situation=situation,
     )
