@@ -207,3 +207,34 @@ def with_unit(table: Table, unit: str) -> Table:
     names = ("name", *(f"{axis}_{unit}" for axis in "xyz"))
     renamed = frame.rename(dict(zip(table.names, names, strict=True)))
     return replace(table, names=names, load=lambda: (renamed, lines))
+
+
+@dataclass(frozen=True)
+class HeadedList:
+    """A format whose header row names its columns: makers differ only in what they call a point's name.
+
+    Args:
+        key: the format's name in the catalogue.
+        title: what it says on a screen.
+        names: what the column of a point's name may be called, small letters and digits only.
+    """
+
+    key: str
+    title: str
+    names: frozenset[str]
+
+    def matches(self, path: Path, head: bytes) -> bool:
+        """A header row with a point's name beside X and Y."""
+        if not path.is_file() or b"\x00" in head or head.lstrip().startswith((b"#", b"//")):
+            return False
+        lines = head.decode("utf-8-sig", errors="replace").splitlines()
+        found = header_line(lines, self.names)
+        return found is not None and not own_header(lines[found[0]])
+
+    def read(self, path: Path) -> Table:
+        """Reads all of it.
+
+        Raises:
+            FileFormatError, MissingColumnError, CellValueError: by row and column.
+        """
+        return headed(path, read_text(path), self.names, self.title)
