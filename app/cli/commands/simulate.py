@@ -32,6 +32,9 @@ class Command:
     """What is wrong, once an effect: NAME, or NAME:joint=2,size=0.1 (also source_joint=, driver=, link=, axis=,
     from_row=, from_s=, to_s=, and each parameter by name). What is left open is drawn."""
 
+    model: Annotated[Path | None, tyro.conf.arg(metavar="IN.json")] = None
+    """A model saved by `diagnose --save-model`: everything in it is in the cell, before any --effect."""
+
     seed: int = 0
     """Same seed, same file."""
 
@@ -123,8 +126,16 @@ class Command:
             loads_kg=self.loads_kg,
             torque_sensors=self.torque_sensors and self.kind == "tracker",
         )
-        clutter = from_mm(self.clutter_mm)
-        simulate_static(self.robot, plan, self.effect, self.seed, self.out, clutter=clutter, say=say)
+        simulate_static(
+            self.robot,
+            plan,
+            self.effect,
+            self.seed,
+            self.out,
+            held=self._held(plan.samples, say),
+            clutter=from_mm(self.clutter_mm),
+            say=say,
+        )
         return 0
 
     def _motion(self, say) -> None:
@@ -145,4 +156,19 @@ class Command:
             currents=self.currents,
             friction=self.friction,
         )
-        simulate_motion(self.robot, plan, self.effect, self.seed, self.out, say=say)
+        held = self._held(plan.samples, say, seconds=plan.samples / plan.rate)
+        simulate_motion(self.robot, plan, self.effect, self.seed, self.out, held=held, say=say)
+
+    def _held(self, samples: int, say, *, seconds: float = 0.0) -> tuple:
+        """The saved model's effects, where one is given."""
+        if self.model is None:
+            return ()
+        from app.diagnosis.model import load_model
+        from app.proof.held import terms_of
+
+        terms, left_out = terms_of(
+            load_model(self.model), self.kind, self.robot, samples=samples, seconds=seconds, file=self.model
+        )
+        for line in left_out:
+            say(line)
+        return terms

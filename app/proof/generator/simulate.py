@@ -11,7 +11,7 @@ import numpy as np
 
 from app import catalog, resources
 from app.errors import InputError
-from app.proof.generator.effects.term import parse_request
+from app.proof.generator.effects.term import Term, parse_request
 from app.proof.generator.files import truth_of, truth_path, write_static, write_truth
 from app.proof.generator.static.cell import LAWS
 from app.proof.generator.static.clutter import as_built, lumped, misweighed
@@ -28,6 +28,7 @@ def simulate_static(
     seed: int,
     out: Path,
     *,
+    held: Sequence[Term] = (),
     clutter: float = 0.0,
     wrong_masses: float = 0.0,
     say: Callable[[str], None] = lambda _: None,
@@ -37,6 +38,7 @@ def simulate_static(
     Args:
         robot: a shipped name or the path of a URDF.
         effects: `NAME[:key=value,...]` each.
+        held: effects with all their values, such as those of a saved model.
         clutter: one-sigma error of every length [m] of the arm as built.
         wrong_masses: share by which its masses differ from the description.
         say: called with what is being done.
@@ -54,13 +56,13 @@ def simulate_static(
     rng = np.random.default_rng(seed)
     arm = as_built(described, clutter, rng) if clutter else described
     arm = misweighed(arm, wrong_masses, rng) if wrong_masses else arm
-    wanted = {r.effect for r in requests}
+    wanted = {r.effect for r in (*requests, *held)}
     if "payload" in wanted:
         plan = replace(plan, declares_compliance=True)
     if "instrument_scale" in wanted and plan.kind == "touch":
         plan = replace(plan, known_targets=True)
     weightless = not np.any(described.masses)
-    made = make(plan, lumped(arm) if weightless else arm, described, requests, rng)
+    made = make(plan, lumped(arm) if weightless else arm, described, requests, rng, held=held)
     out = writable(out)
     write_static(made, out, robot_key(robot, path, out))
     truth = truth_path(out)

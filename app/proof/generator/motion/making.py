@@ -83,9 +83,18 @@ class MadeMotion:
 
 
 def make_motion(
-    plan: MotionPlan, arm: Arm, described: Arm, requests: Sequence[Request], rng: np.random.Generator
+    plan: MotionPlan,
+    arm: Arm,
+    described: Arm,
+    requests: Sequence[Request],
+    rng: np.random.Generator,
+    *,
+    held: Sequence[Term] = (),
 ) -> MadeMotion:
     """One log.
+
+    Args:
+        held: effects that are settled already; they come first.
 
     Raises:
         InputError: an effect that this arm or log cannot carry.
@@ -101,7 +110,7 @@ def make_motion(
     rated = np.where(arm.effort > 0, arm.effort, RATED)
     sigma = plan.noise * rated
     everywhere = _frictions(cell, rated, plan.friction, rng) if plan.friction else []
-    terms: list[Term] = []
+    terms: list[Term] = list(held)
     for request in requests:
         law = law_of(request.effect)
         term, open_strength = draw_term(request, law, rng, cell)

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from app.errors import InputError
-from app.proof.generator.effects.term import parse_request
+from app.proof.generator.effects.term import Term, parse_request
 from app.proof.generator.files import truth_path, write_truth
 from app.proof.generator.motion.cell import LAWS
 from app.proof.generator.motion.making import MotionPlan, make_motion
@@ -27,10 +27,14 @@ def simulate_motion(
     seed: int,
     out: Path,
     *,
+    held: Sequence[Term] = (),
     wrong_masses: float = 0.0,
     say: Callable[[str], None] = lambda _: None,
 ) -> Path:
     """Writes `out` and its truth; returns the path of the truth.
+
+    Args:
+        held: effects with all their values, such as those of a saved model.
 
     Raises:
         InputError: no such robot, effect, option or folder.
@@ -45,7 +49,7 @@ def simulate_motion(
     weightless = not np.any(described.masses)
     arm = lumped(described) if weightless else described
     arm = misweighed(arm, wrong_masses, rng) if wrong_masses else arm
-    made = make_motion(plan, arm, described, requests, rng)
+    made = make_motion(plan, arm, described, requests, rng, held=held)
     out = writable(out)
     write_motion(made, out, robot_key(robot, path, out))
     truth = truth_path(out)

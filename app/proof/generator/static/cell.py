@@ -12,6 +12,7 @@ from app import catalog
 from app.proof.generator.arm import Arm, Stance, point_jacobian, stance
 from app.proof.generator.dynamics import holding_torques
 from app.proof.generator.effects.term import Term
+from app.proof.generator.rotations import turn_vector
 
 LAWS = "app.proof.generator.effects.static"
 OUTSIDE = "app.proof.generator.effects.outside.static"
@@ -90,9 +91,10 @@ class World:
         dq: (m, n) joints are really here minus what is shown.
         shifts, turns: (m, n+1, 3) of the joints' placements, axes of the link before [m, rad].
         base: (m, 3) displacement of the arm in base axes [m].
+        base_turn: (m, 3) its turn about the base's origin, before the displacement, as a rotation vector [rad].
         tool: (m, 3) displacement of the tool points in the flange [m].
         scale: factor on what the instrument measures.
-        reach: what the instrument reads too long along its beam [m].
+        reach: (m,) what the instrument reads too long along its beam [m].
         bend: what it reads too low at one metre, growing with the square of the distance [m].
         depth: how far the tip sinks in, along the flange's Z [m].
         flipped: (n,) -1 where the joint is shown with the wrong sign.
@@ -103,11 +105,12 @@ class World:
     shifts: np.ndarray
     turns: np.ndarray
     base: np.ndarray
+    base_turn: np.ndarray
     tool: np.ndarray
+    reach: np.ndarray
     flipped: np.ndarray
     torque: np.ndarray
     scale: float = 1.0
-    reach: float = 0.0
     bend: float = 0.0
     depth: float = 0.0
 
@@ -121,6 +124,8 @@ def world_with(cell: Cell, terms: Sequence[Term]) -> World:
         np.zeros((m, n + 1, 3)),
         np.zeros((m, 3)),
         np.zeros((m, 3)),
+        np.zeros((m, 3)),
+        np.zeros(m),
         np.ones(n),
         np.zeros((m, n)),
     )
@@ -144,15 +149,19 @@ def tips(cell: Cell, world: World, where: Stance | None = None) -> np.ndarray:
     """(m, k, 3) tool points in the frame the base had at first [m]."""
     where = where or true_stance(cell, world)
     points = cell.tools[cell.session] + world.tool[:, None, :]
-    turned = np.einsum("mij,mkj->mki", where.flange_rotations, points)
-    return where.flange_places[:, None, :] + world.base[:, None, :] + turned
+    placed = where.flange_places[:, None, :] + np.einsum("mij,mkj->mki", where.flange_rotations, points)
+    if world.base_turn.any():
+        placed = np.einsum("mij,mkj->mki", turn_vector(world.base_turn), placed)
+    return placed + world.base[:, None, :]
 
 
 def contact(cell: Cell, world: World) -> tuple[np.ndarray, np.ndarray]:
     """Where the tip first met the target (m, 3) [m], and how it moves with the joints (m, 3, n)."""
     where = true_stance(cell, world)
     tip = tips(cell, world, where)[:, 0]
-    jacobian = point_jacobian(cell.arm, where, tip - world.base) * world.flipped
+    stands = turn_vector(world.base_turn)
+    unturned = np.einsum("mji,mj->mi", stands, tip - world.base)
+    jacobian = stands @ point_jacobian(cell.arm, where, unturned) * world.flipped
     return tip - world.depth * where.flange_rotations[:, :, 2], jacobian
 
 
@@ -168,7 +177,11 @@ def seen(cell: Cell, world: World) -> np.ndarray:
     points = np.einsum("mij,mkj->mki", view[:, :3, :3], tips(cell, world)) + view[:, None, :3, 3]
     distance = np.linalg.norm(points, axis=-1, keepdims=True)
     low = world.bend * distance**2 * np.array([0.0, 0.0, -1.0])
-    return points * world.scale + world.reach * points / np.where(distance > 0, distance, 1.0) + low
+    return (
+        points * world.scale
+        + world.reach[:, None, None] * points / np.where(distance > 0, distance, 1.0)
+        + low
+    )
 
 
 def effect_on_points(cell: Cell, terms: Sequence[Term], term: Term) -> np.ndarray:

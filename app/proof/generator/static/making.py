@@ -103,18 +103,27 @@ class Made:
     pose: np.ndarray
 
 
-def make(plan: Plan, arm: Arm, described: Arm, requests: Sequence[Request], rng: np.random.Generator) -> Made:
+def make(
+    plan: Plan,
+    arm: Arm,
+    described: Arm,
+    requests: Sequence[Request],
+    rng: np.random.Generator,
+    *,
+    held: Sequence[Term] = (),
+) -> Made:
     """One recording.
 
     Args:
         arm: as it stands there.
         described: as its description has it.
+        held: effects that are settled already; they come first.
 
     Raises:
         InputError: an effect that this kind of recording cannot carry.
     """
     cell, pose = _draw_cell(plan, arm, described, rng)
-    terms: list[Term] = []
+    terms: list[Term] = list(held)
     for request in requests:
         term, open_strength = draw_term(request, law_of(request.effect), rng, cell)
         terms.append(scaled_to(cell, terms, term, plan.effect_rms) if open_strength else term)
@@ -235,7 +244,8 @@ def _orientations(cell: Cell, world: World, rng: np.random.Generator) -> np.ndar
     where = true_stance(cell, world)
     error = turn_vector(ORIENTATION_SIGMA * rng.normal(size=(cell.m, 3)))
     mounted = turn_vector(np.array([0.3, -0.2, 0.5]))
-    return cell.views[cell.session][:, :3, :3] @ where.flange_rotations @ mounted @ error
+    stands = cell.views[cell.session][:, :3, :3] @ turn_vector(world.base_turn)
+    return stands @ where.flange_rotations @ mounted @ error
 
 
 def _torques(cell: Cell, world: World, rng: np.random.Generator) -> np.ndarray:

@@ -23,7 +23,10 @@ class BaseDrift:
 
     def add(self, cell, term, world):
         v = np.array([term.parameters[k] for k in ("vx", "vy", "vz")])
-        world.base += (cell.t - cell.t[0])[:, None] * v
+        w = np.array([term.parameters.get(k, 0.0) for k in ("wx", "wy", "wz")])
+        passed = (cell.t - cell.t[0])[:, None]
+        world.base += passed * v
+        world.base_turn += passed * w
 
 
 EFFECT = BaseDrift()

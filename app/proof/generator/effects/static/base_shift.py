@@ -26,7 +26,10 @@ class BaseShift:
 
     def add(self, cell, term, world):
         step = np.array([term.parameters[k] for k in ("dx", "dy", "dz")])
-        world.base += after(cell, term.where["from_row"])[:, None] * step
+        turn = np.array([term.parameters.get(k, 0.0) for k in ("rx", "ry", "rz")])
+        since = after(cell, term.where["from_row"])[:, None]
+        world.base += since * step
+        world.base_turn += since * turn
 
 
 EFFECT = BaseShift()

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from app.errors import InputError
+from app.proof.generator.effects.static._step import after
 from app.proof.generator.effects.term import Size, Term
 
 
@@ -20,7 +21,7 @@ class InstrumentZeroShift:
         return Term(self.key, {"body": "instrument"}, {"offset": float(rng.choice([-1e-3, 1e-3]))})
 
     def add(self, cell, term, world):
-        world.reach += term.parameters["offset"]
+        world.reach += term.parameters["offset"] * after(cell, term.where.get("from_row", 1))
 
 
 EFFECT = InstrumentZeroShift()
