@@ -15,7 +15,7 @@ Every arrow points down; nothing lower knows anything higher (tests/test_archite
     kinematics    robot models, inverse kinematics, collision                only here: pin, coal
     estimation    Fit: parameters with covariance, rank and condition
     geometry      rotations, poses, angle conventions
-    catalog, resources, errors, units
+    catalog, resources, phrases, errors, units
 
 Notation: `T_base_tool` maps tool coordinates into base, so names cancel from inside. `R_a_b`, `p_a`,
 `q` likewise; plurals (`Ts_`) are batches. Inside: metres, radians, seconds, newton-metres, no suffix.

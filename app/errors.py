@@ -105,6 +105,7 @@ class DegenerateGeometryError(TeachframeError):
         needed: directions that must be.
         unseen: the direction or quantity nothing was learnt about.
         advice: what to do next.
+        said: the whole sentence as a phrase that speaks other languages too, where there is one.
     """
 
     def __init__(
@@ -117,9 +118,10 @@ class DegenerateGeometryError(TeachframeError):
         advice: str | None = None,
         code: str = "degenerate",
         file: str | Path | None = None,
+        said: object = None,
     ):
         self.rank, self.needed, self.unseen, self.advice, self.code = rank, needed, unseen, advice, code
-        self.message, self.file = message, file
+        self.message, self.file, self.said = message, file, said
         where = f"{file}: " if file is not None else ""
         super().__init__(one_line(where + message + (f"; {advice}" if advice else "")))
 
@@ -133,6 +135,7 @@ class DegenerateGeometryError(TeachframeError):
             advice=self.advice,
             code=self.code,
             file=file,
+            said=self.said,
         )
 
 

@@ -22,6 +22,7 @@ LAYERS = [
     "geometry",
     "catalog",
     "resources",
+    "phrases",
     "errors",
     "units",
     "__init__",

@@ -15,6 +15,7 @@
     verify.py       turns about the accepted tool point
     report/         one sheet of paper
     exchange/       one file a format that tool frames travel in
+    wording/        what all of these say, in English and Chinese
     base/           base frames by tracker
 
 Model of a touch: `R_i t + p_i = s + e_i`; `R_i, p_i` the flange in base, `t` the tool point in the flange,

@@ -18,7 +18,7 @@ from scipy import special
 
 from app.calibration.captures import Capture
 from app.calibration.result import AxisCone
-from app.errors import DegenerateGeometryError
+from app.calibration.wording import degenerate
 from app.geometry import Pose
 from app.units import deg, mm
 
@@ -65,14 +65,8 @@ def seen_axis(name: str, vector: np.ndarray, lever: np.ndarray | None = None) ->
 def _axis(name: str, vector: np.ndarray, lever: np.ndarray) -> Axis:
     length = float(np.linalg.norm(vector))
     if length < NO_STROKE:
-        raise DegenerateGeometryError(
-            f"the tip did not move between the origin and {name.upper()}",
-            rank=0,
-            needed=1,
-            unseen=f"tool {name.upper()}",
-            advice="move the tip along the axis by 100 mm or more before recording it",
-            code="short_stroke",
-        )
+        letter = name.upper()
+        raise degenerate("short_stroke", rank=0, needed=1, unseen=f"tool {letter}", axis=letter)
     return Axis(name, vector / length, length, lever)
 
 
@@ -85,12 +79,13 @@ def frame_from(kept: Axis, second: Axis) -> np.ndarray:
     across = second.direction - (second.direction @ kept.direction) * kept.direction
     length = float(np.linalg.norm(across))
     if length < PARALLEL:
-        raise DegenerateGeometryError(
-            f"{kept.name.upper()} and {second.name.upper()} are parallel within {deg(np.arcsin(length)):.1f} degrees",
+        raise degenerate(
+            "nearly_parallel",
             rank=1,
             needed=2,
-            advice=f"move along {second.name.upper()} at a right angle to {kept.name.upper()}",
-            code="nearly_parallel",
+            first=kept.name.upper(),
+            second=second.name.upper(),
+            deg=float(deg(np.arcsin(length))),
         )
     columns = np.zeros((3, 3))
     a, b = _PLACE[kept.name], _PLACE[second.name]

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from app.geometry import Pose
+from app.phrases import Phrase
 from app.units import mm
 
 
@@ -19,15 +20,24 @@ class Warning_:
         message: what was seen, with its figures.
         advice: what to do next.
         severe: True where the result should not be accepted as it stands.
+        phrases: message and advice before they were put into words; () where they speak English only.
     """
 
     code: str
     message: str
     advice: str = ""
     severe: bool = False
+    phrases: tuple[Phrase, ...] = field(default=(), repr=False, compare=False)
 
     def __str__(self) -> str:
         return f"{self.message}; {self.advice}" if self.advice else self.message
+
+    def said(self, language: str) -> str:
+        """Message and advice in a language."""
+        if not self.phrases:
+            return str(self)
+        seen, todo = self.phrases
+        return seen.texts.text("warning.said", language, seen=seen, todo=todo)
 
 
 @dataclass(frozen=True)

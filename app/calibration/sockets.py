@@ -17,6 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from app.calibration.result import ToolCalibration
+from app.calibration.wording import degenerate
 from app.errors import DegenerateGeometryError, MissingColumnError, TooFewPointsError, UnknownNameError
 from app.geometry import Pose
 from app.kinematics import load_robot
@@ -141,22 +142,11 @@ def _tool(rotations: np.ndarray, positions: np.ndarray, labels: np.ndarray) -> t
         normal += np.einsum("nij,nik->jk", turned, turned)
         rhs -= np.einsum("nij,ni->j", turned, moved)
     if not normal.any():
-        raise TooFewPointsError(
-            "no point was touched more than once",
-            rank=0,
-            needed=3,
-            advice="touch one point again with the tool tilted another way",
-            code="too_few",
-        )
+        raise degenerate("too_few", "too_few_sockets", kind=TooFewPointsError, rank=0, needed=3)
     values = np.linalg.eigvalsh(normal)
     if values[0] < _SINGULAR * max(values[-1], 1.0):
-        raise DegenerateGeometryError(
-            "the touches of each point turn about one axis: the tool point along it stays open",
-            rank=int((values > _SINGULAR * max(values[-1], 1.0)).sum()),
-            needed=3,
-            advice="tilt the tool about another axis as well",
-            code="one_axis",
-        )
+        rank = int((values > _SINGULAR * max(values[-1], 1.0)).sum())
+        raise degenerate("one_axis", "one_axis_sockets", rank=rank, needed=3)
     return np.linalg.solve(normal, rhs), normal
 
 

@@ -103,6 +103,7 @@ def _placed(error: DegenerateGeometryError, points: Points) -> DegenerateGeometr
         advice=error.advice,
         code=error.code,
         file=points.path,
+        said=error.said,
     )
 
 

@@ -13,6 +13,7 @@ import numpy as np
 
 from app.calibration.quality.region import reach
 from app.calibration.result import ToolCalibration
+from app.calibration.wording import phrase
 from app.geometry import Pose, exp_so3
 from app.kinematics import IkResult, RobotModel, solve_ik
 from app.units import from_deg, mm
@@ -46,13 +47,18 @@ class Verification:
     expected: float
     stopped: str = ""
 
-    def sentence(self) -> str:
+    @property
+    def inside(self) -> bool | None:
+        """True where the tip wandered no further than predicted; None where nothing was predicted."""
+        return self.wander <= self.expected if np.isfinite(self.expected) else None
+
+    def sentence(self, language: str = "en") -> str:
         """What an operator reads."""
-        text = f"turned about the tool point, the tip wandered by {mm(self.wander):.2f} mm at most"
-        if np.isfinite(self.expected):
-            inside = "as predicted" if self.wander <= self.expected else "MORE than predicted"
-            text += f" ({inside}: up to {mm(self.expected):.2f} mm)"
-        return text + (f"; stopped early: {self.stopped}" if self.stopped else "")
+        key = {None: "wander", True: "inside", False: "outside"}[self.inside]
+        said = phrase(f"verify.{key}", wander=mm(self.wander), expected=mm(self.expected))
+        if self.stopped:
+            said = phrase("verify.stopped", said=said, why=self.stopped)
+        return said.text(language)
 
 
 def turning_path(T_base_tool: Pose, T_flange_tool: Pose) -> tuple[tuple[Pose, ...], np.ndarray]:

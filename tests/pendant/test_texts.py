@@ -30,13 +30,13 @@ def test_every_text_the_code_asks_for_is_there():
 
 @pytest.mark.parametrize("language", [key for key in languages() if key != FALLBACK])
 def test_every_language_has_every_text(language):
-    missing = [key for key in texts._texts(FALLBACK) if not texts.has_text(key, language)]
+    missing = [key for key in texts.TEXTS.languages[FALLBACK] if not texts.has_text(key, language)]
     assert not missing, missing
 
 
 @pytest.mark.parametrize("language", [key for key in languages() if key != FALLBACK])
 def test_a_translation_has_the_same_fields(language):
-    english, other = texts._texts(FALLBACK), texts._texts(language)
+    english, other = texts.TEXTS.languages[FALLBACK], texts.TEXTS.languages[language]
     wrong = [
         k for k in english if k in other and set(FIELD.findall(other[k])) != set(FIELD.findall(english[k]))
     ]

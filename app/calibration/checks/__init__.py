@@ -13,6 +13,7 @@ from typing import Any, Protocol
 from app.calibration.captures import Capture
 from app.calibration.result import ToolCalibration, Warning_
 from app.errors import DegenerateGeometryError
+from app.phrases import Phrase
 
 
 class Check(Protocol):
@@ -32,4 +33,6 @@ class Check(Protocol):
 
 def refusal(error: DegenerateGeometryError) -> Warning_:
     """A refusal as a warning, for screens that show both in one list."""
-    return Warning_(error.code, error.message, error.advice or "", severe=True)
+    said = error.said if isinstance(error.said, Phrase) else None
+    parts = (said.fields["seen"], said.fields["todo"]) if said else ()
+    return Warning_(error.code, error.message, error.advice or "", severe=True, phrases=parts)

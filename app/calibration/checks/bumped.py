@@ -16,6 +16,7 @@ from scipy import special
 
 from app.calibration.captures import Capture, of_role, stack
 from app.calibration.result import ToolCalibration, Warning_
+from app.calibration.wording import phrase, remark
 from app.units import from_mm, mm
 
 RARE = 0.01
@@ -60,22 +61,17 @@ class Bumped:
     def _say(self, best: _Story, kinds: set[str], n: int) -> Warning_:
         number, size = best.touch + 1, mm(best.size)
         if best.kind == "missed":
-            return Warning_(
-                self.key,
-                f"touch {number} lies {size:.2f} mm off the point that the others agree on",
-                f"the spike or the tip was bumped at touch {number}, or it missed: record it again",
-                severe=True,
-            )
-        what = {
-            frozenset({"spike"}): f"the spike moved by {size:.2f} mm",
-            frozenset({"tip"}): f"the tip bent by {size:.2f} mm",
-        }.get(frozenset(kinds - {"missed"}), f"the spike moved or the tip bent, by about {size:.2f} mm")
-        again = f"touches {number} to {n}" if number < n else f"touch {number}"
-        return Warning_(
+            return remark(self.key, "missed", severe=True, touch=number, size=size)
+        told = kinds - {"missed"}
+        which = next(iter(told)) if len(told) == 1 else "either"
+        last = "these" if number < n else "this"
+        return remark(
             self.key,
-            f"from touch {number} on something is different: {what}",
-            f"check spike and tip, then record touches 1 to {number - 1} again, or {again}",
             severe=True,
+            touch=number,
+            before=number - 1,
+            what=phrase(f"check.bumped_{which}", size=size),
+            again=phrase(f"check.bumped_{last}", touch=number, last=n),
         )
 
 

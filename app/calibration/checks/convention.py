@@ -16,6 +16,7 @@ from app.calibration.captures import Capture
 from app.calibration.points import Points
 from app.calibration.result import ToolCalibration, Warning_
 from app.calibration.solvers.joint import fit_joint
+from app.calibration.wording import Phrase, phrase, remark
 from app.errors import DegenerateGeometryError
 from app.geometry import CONVENTIONS, rot_x, rot_y, rot_z
 from app.units import DEG_PER_RAD, from_mm, mm
@@ -45,7 +46,7 @@ class ConventionCheck:
             return []
         rows = [i for i, c in enumerate(points.captures) if "touch" in c.roles]
         values = points.written.values[rows]
-        best_name, best = "", result.sigma
+        best_name, best = phrase("reading.inverse"), result.sigma
         for name, rotations, positions in _readings(points, values):
             try:
                 sigma = fit_joint(rotations, positions).sigma
@@ -55,15 +56,7 @@ class ConventionCheck:
                 best_name, best = name, sigma
         if best > VANISHES * result.sigma:
             return []
-        return [
-            Warning_(
-                self.key,
-                f"the angles look like {best_name}: read so, a touch scatters by {mm(best):.2f} mm instead of "
-                f"{mm(result.sigma):.1f} mm",
-                "correct the header or the column names and solve again",
-                severe=True,
-            )
-        ]
+        return [remark(self.key, severe=True, reading=best_name, best=mm(best), found=mm(result.sigma))]
 
 
 CHECK = ConventionCheck()
@@ -76,18 +69,19 @@ def _lengths(points: Points) -> list[Warning_]:
     far, spread = float(np.abs(positions).max()), float(np.ptp(positions, axis=0).max())
     unit = points.written.names[0].rpartition("_")[2]
     if far > _FAR and unit == "m":
-        text = f"the flange stands up to {far:.0f} m away: the lengths look like millimetres, not metres"
-    elif far < _NEAR and spread > 0 and unit == "mm":
-        text = f"the flange stands within {mm(far):.2f} mm of the base: the lengths look like metres, not millimetres"
-    else:
-        return []
-    return [Warning_("units", text, "correct the unit in the column names and solve again", severe=True)]
+        return [remark("units", "units_m", severe=True, far=far)]
+    if far < _NEAR and spread > 0 and unit == "mm":
+        return [remark("units", "units_mm", severe=True, far=mm(far))]
+    return []
 
 
-def _readings(points: Points, values: np.ndarray) -> Iterator[tuple[str, np.ndarray, np.ndarray]]:
+def _readings(points: Points, values: np.ndarray) -> Iterator[tuple[Phrase, np.ndarray, np.ndarray]]:
     """Name, rotations, positions of every other way to read the numbers."""
     written = points.written
-    units = {"deg": ("radians, not degrees", DEG_PER_RAD), "rad": ("degrees, not radians", 1.0 / DEG_PER_RAD)}
+    units = {
+        "deg": (phrase("reading.radians"), DEG_PER_RAD),
+        "rad": (phrase("reading.degrees"), 1.0 / DEG_PER_RAD),
+    }
     unit = written.names[-1].rpartition("_")[2]
     if written.convention is None:
         if unit in units:
@@ -98,28 +92,28 @@ def _readings(points: Points, values: np.ndarray) -> Iterator[tuple[str, np.ndar
     numbers, positions = values[:, 3:], values[:, :3]
     if not written.convention.angular:
         swapped = CONVENTIONS["quaternion"].to_rotation(numbers[:, [3, 0, 1, 2]])
-        yield "a quaternion with w last (x, y, z, w)", swapped, positions
-        yield "the inverse rotation (base in the flange)", _turned_round(written.poses(values)), positions
+        yield phrase("reading.w_last"), swapped, positions
+        yield phrase("reading.inverse"), _turned_round(written.poses(values)), positions
         return
     for key, form in (*((k, c.to_rotation) for k, c in CONVENTIONS.items() if c.angular), *_OTHERS.items()):
         if key != written.convention.key:
             yield _title(key), form(numbers), positions
         name, factor = units[unit]
-        both = name if key == written.convention.key else f"{_title(key)} in {name}"
+        both = name if key == written.convention.key else phrase("reading.both", form=_title(key), unit=name)
         yield both, form(numbers * factor), positions
-    yield "the inverse rotation (base in the flange)", _turned_round(written.poses(values)), positions
+    yield phrase("reading.inverse"), _turned_round(written.poses(values)), positions
 
 
 def _turned_round(poses: np.ndarray) -> np.ndarray:
     return np.swapaxes(poses[:, :3, :3], 1, 2)
 
 
-def _title(key: str) -> str:
+def _title(key: str) -> Phrase:
     if key in CONVENTIONS:
-        return f"{key} ({', '.join(CONVENTIONS[key].makers)})"
-    return key
+        return phrase("reading.of", name=key, makers=", ".join(CONVENTIONS[key].makers))
+    return phrase(f"reading.{key}")
 
 
 _OTHERS: dict[str, Callable[[np.ndarray], np.ndarray]] = {
-    "X-Y-Z about moving axes (Stäubli)": lambda a: rot_x(a[..., 0]) @ rot_y(a[..., 1]) @ rot_z(a[..., 2]),
+    "staubli": lambda a: rot_x(a[..., 0]) @ rot_y(a[..., 1]) @ rot_z(a[..., 2]),
 }

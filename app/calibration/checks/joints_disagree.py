@@ -12,6 +12,7 @@ from app.calibration.captures import Capture
 from app.calibration.checks.tool_active import constant_offset
 from app.calibration.points import ANGLE_TOLERANCE, POSITION_TOLERANCE, Points
 from app.calibration.result import ToolCalibration, Warning_
+from app.calibration.wording import phrase, remark
 from app.units import deg, mm
 
 #: Rounding of the written digits is allowed this many times over.
@@ -39,15 +40,16 @@ class JointsDisagree:
             return []
         worst = int(wrong[np.argmax(distance[wrong])])
         rows = ", ".join(str(points.captures[i].row) for i in wrong[:5]) + ("…" if len(wrong) > 5 else "")
-        every = "in every row" if len(wrong) == len(distance) else f"in row {rows}"
+        every = len(wrong) == len(distance)
         return [
-            Warning_(
+            remark(
                 self.key,
-                f"joint angles and flange pose disagree {every}: by {mm(distance[worst]):.2f} mm and "
-                f"{deg(angle[worst]):.2f} degrees in row {points.captures[worst].row} "
-                f"({points.robot.title}); the pose was used",
-                "check the robot's name, the base frame and the row; leave out the columns that are wrong",
                 severe=True,
+                where=phrase(f"check.joints_disagree_{'every' if every else 'row'}", rows=rows),
+                distance=mm(distance[worst]),
+                deg=deg(angle[worst]),
+                row=points.captures[worst].row,
+                robot=points.robot.title,
             )
         ]
 

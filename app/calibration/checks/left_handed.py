@@ -11,6 +11,7 @@ import numpy as np
 from app.calibration.captures import Capture
 from app.calibration.checks._strokes import strokes
 from app.calibration.result import ToolCalibration, Warning_
+from app.calibration.wording import remark
 from app.units import from_mm
 
 #: Tools shorter than this do not say which way is out [m].
@@ -30,14 +31,7 @@ class LeftHanded:
         if len(shown) == 3:
             volume = float(np.linalg.det([v / np.linalg.norm(v) for v in shown.values()]))
             if volume < 0.0:
-                return [
-                    Warning_(
-                        self.key,
-                        "X, Y and Z as recorded make a left-handed frame",
-                        "one stroke went the wrong way, or two were swapped: record them again",
-                        severe=True,
-                    )
-                ]
+                return [remark(self.key, severe=True)]
         length = float(np.linalg.norm(result.tool_point))
         if len(shown) < 1 or length < _SHORT or not {"z", "y"} & set(shown):
             return []
@@ -45,20 +39,8 @@ class LeftHanded:
         if float(z @ result.tool_point) / length > _BACK:
             return []
         if "z" in shown:
-            return [
-                Warning_(
-                    "axis_reversed",
-                    "Z points from the tip back towards the flange",
-                    "if Z shall point out of the tool, record the stroke along +Z again",
-                )
-            ]
-        return [
-            Warning_(
-                self.key,
-                "with X and Y as recorded, a right-handed frame has its Z pointing back into the flange",
-                "X and Y may be swapped, or one went the wrong way: record them again",
-            )
-        ]
+            return [remark("axis_reversed")]
+        return [remark(self.key, "left_handed_xy")]
 
 
 CHECK = LeftHanded()

@@ -12,6 +12,7 @@ import numpy as np
 from app.calibration.captures import Capture
 from app.calibration.checks._strokes import strokes
 from app.calibration.result import ToolCalibration, Warning_
+from app.calibration.wording import remark
 from app.units import deg, from_deg
 
 #: Strokes closer to one line than this are refused as a result; closer to square than the other are fine [rad].
@@ -28,24 +29,11 @@ class NearlyParallel:
         found = []
         for (a, u), (b, v) in combinations(strokes(result, captures).items(), 2):
             angle = float(np.arctan2(np.linalg.norm(np.cross(u, v)), u @ v))
+            fields = {"first": a.upper(), "second": b.upper(), "deg": deg(angle)}
             if min(angle, np.pi - angle) < SEVERE:
-                found.append(
-                    Warning_(
-                        self.key,
-                        f"the strokes along {a.upper()} and {b.upper()} stand at {deg(angle):.1f} degrees: "
-                        "the plane of the two is poorly known",
-                        f"record {b.upper()} again, at a right angle to {a.upper()}",
-                        severe=True,
-                    )
-                )
+                found.append(remark(self.key, severe=True, **fields))
             elif abs(angle - np.pi / 2) > SQUARE:
-                found.append(
-                    Warning_(
-                        "not_square",
-                        f"the strokes along {a.upper()} and {b.upper()} stand at {deg(angle):.1f} degrees, not at 90",
-                        "jog along the tool's axes, not by eye, and record the strokes again",
-                    )
-                )
+                found.append(remark("not_square", **fields))
         return found
 
 

@@ -10,6 +10,7 @@ import numpy as np
 
 from app.calibration.captures import Capture, of_role, stack
 from app.calibration.result import ToolCalibration, Warning_
+from app.calibration.wording import remark
 
 #: Condition beyond which the weakest direction is ten times worse than the best.
 WEAK = 10.0
@@ -28,14 +29,7 @@ class OneAxis:
         _, _, directions = np.linalg.svd((rotations - rotations.mean(axis=0)).reshape(-1, 3))
         weak = directions[-1] * np.sign(directions[-1][np.argmax(np.abs(directions[-1]))])
         along = "(" + ", ".join(f"{v:.2f}" for v in np.round(weak, 2) + 0.0) + ")"
-        return [
-            Warning_(
-                self.key,
-                f"the touches turn almost about one axis, {along} in the flange: "
-                f"along it the tool point is {result.condition:.0f} times less certain",
-                "add a touch with the tool tilted across that axis",
-            )
-        ]
+        return [remark(self.key, along=along, times=result.condition)]
 
 
 CHECK = OneAxis()

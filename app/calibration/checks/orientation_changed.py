@@ -9,6 +9,7 @@ from typing import Any
 from app.calibration.captures import Capture, of_role
 from app.calibration.checks._strokes import AXES
 from app.calibration.result import ToolCalibration, Warning_
+from app.calibration.wording import remark
 from app.geometry import angle_between
 from app.units import deg, from_deg
 
@@ -31,12 +32,7 @@ class OrientationChanged:
                     )
                     if angle > NOTICED:
                         found.append(
-                            Warning_(
-                                self.key,
-                                f"the tool turned by {deg(angle):.1f} degrees between the origin and {name.upper()}",
-                                f"jog in straight lines only, and record {name.upper()} again",
-                                severe=angle > SEVERE,
-                            )
+                            remark(self.key, severe=angle > SEVERE, deg=deg(angle), axis=name.upper())
                         )
         return found
 

@@ -11,6 +11,7 @@ import numpy as np
 from app.calibration.captures import Capture
 from app.calibration.checks._strokes import strokes
 from app.calibration.result import ToolCalibration, Warning_
+from app.calibration.wording import remark
 from app.units import deg, from_mm, mm
 
 ASKED = from_mm(100.0)
@@ -33,11 +34,13 @@ class ShortStroke:
             if length < _SLACK * ASKED:
                 off = deg(np.arctan2(np.sqrt(2.0) * noise, length))
                 found.append(
-                    Warning_(
+                    remark(
                         self.key,
-                        f"the stroke along {name.upper()} is {mm(length):.1f} mm long only: "
-                        f"a noise of {mm(noise):.2f} mm turns the axis by {off:.1f} degrees",
-                        f"move {mm(ASKED):.0f} mm or more along {name.upper()} before recording it",
+                        axis=name.upper(),
+                        length=mm(length),
+                        noise=mm(noise),
+                        deg=off,
+                        asked=mm(ASKED),
                     )
                 )
         return found

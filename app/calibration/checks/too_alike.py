@@ -10,6 +10,7 @@ import numpy as np
 
 from app.calibration.captures import Capture, of_role, stack
 from app.calibration.result import ToolCalibration, Warning_
+from app.calibration.wording import phrase, remark
 from app.geometry import angle_between
 from app.units import deg, from_deg
 
@@ -38,17 +39,18 @@ class TooAlike:
         close = [k for k in np.argsort(angles) if angles[k] < ALIKE]
         if not close:
             return []
-        pairs = ", ".join(
-            f"{first[k] + 1} and {second[k] + 1} ({deg(angles[k]):.1f} degrees)" for k in close[:_SHOWN]
-        )
-        more = f" and {len(close) - _SHOWN} more pairs" if len(close) > _SHOWN else ""
-        return [
-            Warning_(
-                self.key,
-                f"touches with almost the same orientation: {pairs}{more}",
-                f"record touch {second[close[0]] + 1} again with the tool turned by 45 degrees or more",
+        pairs: object = tuple(
+            phrase(
+                "check.too_alike_pair",
+                first=int(first[k]) + 1,
+                second=int(second[k]) + 1,
+                deg=float(deg(angles[k])),
             )
-        ]
+            for k in close[:_SHOWN]
+        )
+        if len(close) > _SHOWN:
+            pairs = phrase("check.too_alike_more", pairs=pairs, count=len(close) - _SHOWN)
+        return [remark(self.key, pairs=pairs, touch=int(second[close[0]]) + 1)]
 
 
 CHECK = TooAlike()

@@ -11,12 +11,12 @@ import numpy as np
 from app.calibration.captures import Capture, of_role
 from app.calibration.points import ANGLE_TOLERANCE, POSITION_TOLERANCE, Points
 from app.calibration.result import ToolCalibration, Warning_
+from app.calibration.wording import remark
 from app.geometry import angle_between
 from app.units import from_mm, mm
 
 #: Tools shorter than this are suspicious: the "flange" hardly moved although it turned [m].
 SHORT = from_mm(10.0)
-_ADVICE = "choose tool 0 (the flange) on the controller and record again"
 
 
 @dataclass(frozen=True)
@@ -28,31 +28,15 @@ class ToolActive:
     ) -> list[Warning_]:
         active = context.get("tool_active")
         if active:
-            name = f" ({active})" if isinstance(active, str) else ""
-            return [Warning_(self.key, f"a tool{name} was active while teaching", _ADVICE, severe=True)]
+            named = isinstance(active, str)
+            return [remark(self.key, "tool_active_named" if named else "", severe=True, tool=active)]
         offset = constant_offset(context.get("points"))
         if offset is not None and np.linalg.norm(offset) > POSITION_TOLERANCE:
             text = ", ".join(f"{v:.1f}" for v in mm(offset))
-            return [
-                Warning_(
-                    self.key,
-                    f"the poses in the file are not the flange's: against the joints they are off by the same tool, "
-                    f"({text}) mm, in every row",
-                    _ADVICE,
-                    severe=True,
-                )
-            ]
+            return [remark(self.key, "tool_active_offset", severe=True, offset=text)]
         length = float(np.linalg.norm(result.tool_point))
         if of_role(captures, "touch") and length < SHORT:
-            return [
-                Warning_(
-                    self.key,
-                    f"the tool comes out {mm(length):.1f} mm long: the recorded poses turn about the tip itself, "
-                    "as they do when a tool is active",
-                    _ADVICE,
-                    severe=True,
-                )
-            ]
+            return [remark(self.key, "tool_active_short", severe=True, length=mm(length))]
         return []
 
 

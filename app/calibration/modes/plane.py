@@ -18,7 +18,8 @@ from app.calibration.captures import Capture, Demo, Step, of_role, stack
 from app.calibration.modes._touches import DEMO_SPIKE, DEMO_TOOL, demo_flange, demo_turn
 from app.calibration.result import ToolCalibration
 from app.calibration.tool import checked
-from app.errors import DegenerateGeometryError, TooFewPointsError
+from app.calibration.wording import degenerate
+from app.errors import TooFewPointsError
 from app.estimation import Fit, gauss_newton
 from app.geometry import Pose
 from app.units import from_mm
@@ -54,23 +55,18 @@ class Plane:
         """
         touches = of_role(captures, "plane")
         if len(touches) < self.least_touches:
-            raise TooFewPointsError(
-                f"{len(touches)} touches of a plate cannot determine a tool point: at least 7 are needed",
+            raise degenerate(
+                "too_few",
+                "too_few_plane",
+                kind=TooFewPointsError,
                 rank=len(touches),
                 needed=self.least_touches,
-                advice="touch the plate again with the tool tilted another way",
-                code="too_few",
+                count=len(touches),
             )
         rotations, positions = stack(touches)
         fit, normal = _fit(rotations, positions)
         if fit.rank < 6 or not fit.condition < _SINGULAR:
-            raise DegenerateGeometryError(
-                "the touches of the plate leave the tool point open",
-                rank=min(fit.rank, 5),
-                needed=6,
-                advice="tilt the tool further, and about two axes; move about on the plate",
-                code="one_axis",
-            )
+            raise degenerate("one_axis", "one_axis_plane", rank=min(fit.rank, 5), needed=6)
         tool, distance = fit.values[:3], fit.values[5]
         tips = rotations @ tool + positions
         heights = tips @ normal - distance

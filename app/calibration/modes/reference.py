@@ -18,6 +18,7 @@ from app.calibration.modes._touches import DEMO_SPIKE, DEMO_TOOL, demo_flange, d
 from app.calibration.result import ToolCalibration
 from app.calibration.solvers.pairwise import delta
 from app.calibration.tool import checked
+from app.calibration.wording import degenerate
 from app.errors import CellValueError, TooFewPointsError
 from app.geometry import Pose
 from app.units import from_mm
@@ -70,15 +71,9 @@ class Reference:
                 expected="its tool point, x, y, z in the flange",
             )
         known, new = of_role(captures, "known"), of_role(captures, "touch")
-        for found, role in ((known, "known tool"), (new, "new tool")):
+        for found, key in ((known, "too_few_known"), (new, "too_few_new")):
             if not found:
-                raise TooFewPointsError(
-                    f"the {role} has not touched the point yet",
-                    rank=0,
-                    needed=1,
-                    advice=f"touch the point with the {role}",
-                    code="too_few",
-                )
+                raise degenerate("too_few", key, kind=TooFewPointsError, rank=0, needed=1)
         R_known, p_known = stack(known)
         R_new, p_new = stack(new)
         spikes = R_known @ np.asarray(known_tool, float) + p_known

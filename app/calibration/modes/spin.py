@@ -29,7 +29,8 @@ from app.calibration.modes._touches import (
 from app.calibration.orientation import frame_from_z, seen_axis
 from app.calibration.result import AxisCone, ToolCalibration
 from app.calibration.tool import calibrate, checked
-from app.errors import DegenerateGeometryError, TooFewPointsError
+from app.calibration.wording import degenerate
+from app.errors import TooFewPointsError
 from app.geometry import Pose, rot_z
 from app.units import deg, from_deg
 
@@ -80,26 +81,16 @@ class Spin:
 
 def _axis(spins: Sequence[Capture], tool: np.ndarray) -> tuple[np.ndarray, tuple[AxisCone, ...]]:
     if len(spins) < 2:
-        raise TooFewPointsError(
-            f"{len(spins)} spin capture cannot show an axis: at least 2 are needed",
-            rank=0,
-            needed=2,
-            advice="turn the tool about its own axis and record again",
-            code="too_few",
+        raise degenerate(
+            "too_few", "too_few_spin", kind=TooFewPointsError, rank=0, needed=2, count=len(spins)
         )
     rotations, _ = stack(spins)
     mean = rotations.mean(axis=0)
     _, values, directions = np.linalg.svd(mean)
     spread = float(np.sqrt(max(1.0 - values[1] ** 2, 0.0)))
     if spread < np.sin(LEAST_SPIN):
-        raise DegenerateGeometryError(
-            f"the tool was spun by {deg(np.arcsin(min(spread, 1.0))):.1f} degrees only",
-            rank=0,
-            needed=1,
-            unseen="tool Z",
-            advice="turn the tool by 60 degrees or more between spin captures",
-            code="short_stroke",
-        )
+        turned = float(deg(np.arcsin(min(spread, 1.0))))
+        raise degenerate("short_stroke", "short_spin", rank=0, needed=1, unseen="tool Z", deg=turned)
     z = directions[0] * (1.0 if directions[0] @ tool >= 0 else -1.0)
     wobble = rotations @ z - mean @ z
     dof = 2 * len(spins) - 4

@@ -10,7 +10,7 @@ import numpy as np
 from app.calibration.next_touch.candidates import TouchLimits, candidates
 from app.calibration.next_touch.plan import plan_touches
 from app.calibration.next_touch.prediction import USUAL_NOISE, predicted_covariance, predicted_error
-from app.errors import DegenerateGeometryError
+from app.calibration.wording import degenerate, phrase
 from app.geometry import Pose
 from app.kinematics import RobotModel, solve_ik
 from app.units import mm
@@ -44,13 +44,14 @@ class Proposal:
     sigma_after: np.ndarray
     refused: int
 
-    def sentence(self) -> str:
+    def sentence(self, language: str = "en") -> str:
         """What an operator reads."""
-        if not np.isfinite(self.after):
-            end = f"; with all planned touches {mm(self.at_end):.2f} mm" if np.isfinite(self.at_end) else ""
-            return f"the tool point stays open after this touch{end}"
-        now = f"{mm(self.now):.2f} mm" if np.isfinite(self.now) else "open"
-        return f"tool point: now {now}, after this touch {mm(self.after):.2f} mm (expected error)"
+        if np.isfinite(self.after):
+            key = "both" if np.isfinite(self.now) else "first"
+        else:
+            key = "open_end" if np.isfinite(self.at_end) else "open"
+        fields = {"now": mm(self.now), "after": mm(self.after), "end": mm(self.at_end)}
+        return phrase(f"next.{key}", **fields).text(language)
 
 
 def propose(
@@ -91,13 +92,7 @@ def propose(
     upright = reference
     if upright is None:
         if not len(rotations):
-            raise DegenerateGeometryError(
-                "no orientation to start from",
-                rank=0,
-                needed=1,
-                advice="record the first touch",
-                code="too_few",
-            )
+            raise degenerate("too_few", "no_start", rank=0, needed=1)
         upright = np.asarray(rotations[0])
     axis = np.asarray(tool if tool_axis is None else tool_axis, float)
     length = float(np.linalg.norm(axis))
@@ -133,13 +128,7 @@ def propose(
             np.sqrt(np.diag(predicted_covariance(np.array(made), noise))),
             refused,
         )
-    raise DegenerateGeometryError(
-        "the arm reaches none of the allowed orientations at this spike",
-        rank=0,
-        needed=1,
-        advice="move the spike nearer to the middle of the work space",
-        code="out_of_reach",
-    )
+    raise degenerate("out_of_reach", rank=0, needed=1)
 
 
 def _reach(

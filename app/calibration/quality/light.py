@@ -10,7 +10,8 @@ from dataclasses import dataclass
 from typing import Literal
 
 from app.calibration.quality.region import ellipsoid
-from app.calibration.result import ToolCalibration
+from app.calibration.result import ToolCalibration, Warning_
+from app.calibration.wording import FALLBACK, Phrase, phrase
 from app.units import from_mm, mm
 
 Colour = Literal["green", "yellow", "red"]
@@ -28,14 +29,34 @@ class Limits:
 
 @dataclass(frozen=True)
 class Light:
-    """A colour with its reason and what to do next."""
+    """A colour with its reason and what to do next, not in words yet."""
 
     colour: Colour
-    reason: str
-    action: str
+    why: Phrase
+    todo: Phrase
+
+    @property
+    def reason(self) -> str:
+        """Why, in English."""
+        return self.why.text()
+
+    @property
+    def action(self) -> str:
+        """What to do next, in English."""
+        return _sentence(self.todo.text())
 
     def __str__(self) -> str:
-        return f"{self.colour.upper()}: {self.reason}. {self.action}."
+        return self.said()
+
+    def said(self, language: str = FALLBACK) -> str:
+        """Colour, reason and what to do next."""
+        colour, action = phrase(f"light.{self.colour}"), _sentence(self.todo.text(language))
+        return phrase("light.said", colour=colour, reason=self.why, action=action).text(language)
+
+    def sentence(self, language: str = FALLBACK) -> str:
+        """Reason and what to do next, for a place that shows the colour itself."""
+        reason, action = _sentence(self.why.text(language)), _sentence(self.todo.text(language))
+        return phrase("light.sentence", reason=reason, action=action).text(language)
 
 
 def light(result: ToolCalibration, limits: Limits | None = None) -> Light:
@@ -43,30 +64,33 @@ def light(result: ToolCalibration, limits: Limits | None = None) -> Light:
     limits = limits or Limits()
     severe = [w for w in result.warnings if w.severe]
     if severe:
-        return Light("red", severe[0].message, _sentence(severe[0].advice or "Teach again"))
+        return _warned("red", severe[0], "light.teach")
     longest = float(ellipsoid(result).semi_axes[0]) if len(result.residual_vectors) else 0.0
-    mean = f"the tips lie {mm(result.mean):.2f} mm from one point on average"
-    region = f"the tool point is only known to {mm(longest):.2f} mm (95%)"
+    figures = {"mean": mm(result.mean), "region": mm(longest), "touch": result.worst + 1}
+
+    def shown(colour: Colour, why: str, todo: str) -> Light:
+        return Light(colour, phrase(f"light.{why}", **figures), phrase(f"light.{todo}", **figures))
+
     if result.mean > limits.mean_red:
-        return Light("red", mean, f"Record touch {result.worst + 1} again")
+        return shown("red", "mean", "again")
     if longest > limits.region_red:
-        return Light("red", region, "Add touches that are tilted further, 45 degrees and more")
+        return shown("red", "region", "tilt_further")
     if result.mean > limits.mean_yellow:
-        return Light("yellow", mean, f"Record touch {result.worst + 1} again, or add a touch")
+        return shown("yellow", "mean", "again_or_add")
     if longest > limits.region_yellow:
-        return Light("yellow", region, "Add a touch with the tool tilted another way")
+        return shown("yellow", "region", "add")
     if result.warnings:
-        first = result.warnings[0]
-        return Light(
-            "yellow", first.message, _sentence(first.advice or "Look at the warning before accepting")
-        )
+        return _warned("yellow", result.warnings[0], "light.look")
     if not len(result.residual_vectors):
-        return Light(
-            "yellow", "nothing was measured that could be checked", "Verify by turning about the tool point"
-        )
-    return Light(
-        "green", f"{mean} and the tool point is known to {mm(longest):.2f} mm (95%)", "Accept, then verify"
-    )
+        return shown("yellow", "unmeasured", "verify")
+    return shown("green", "good", "accept")
+
+
+def _warned(colour: Colour, warning: Warning_, fallback: str) -> Light:
+    if warning.phrases:
+        return Light(colour, *warning.phrases)
+    todo = phrase("light.plain", text=warning.advice) if warning.advice else phrase(fallback)
+    return Light(colour, phrase("light.plain", text=warning.message), todo)
 
 
 def _sentence(text: str) -> str:

@@ -9,6 +9,7 @@ from scipy import special
 
 from app.calibration.quality.rounding import Rounding
 from app.calibration.result import ToolCalibration
+from app.calibration.wording import phrase
 from app.units import mm
 
 #: A gap this rare under an explanation is not explained by it.
@@ -33,25 +34,13 @@ class Gap:
     explained_by: str
     p_value: float
 
-    def sentence(self) -> str:
+    def sentence(self, language: str = "en") -> str:
         """What a person reads."""
         text = ", ".join(f"{a} {v:+.3f}" for a, v in zip("xyz", mm(self.gap), strict=True))
+        key = {"rounding": "rounding", "touch noise": "noise"}.get(self.explained_by, "nothing")
+        most = float(np.max(np.abs(self.sigmas)))
         name = self.name.replace("_", " ")
-        if self.explained_by == "rounding":
-            most = float(np.max(np.abs(self.sigmas)))
-            return (
-                f"gap to the {name}: {text} mm, at most {most:.1f} standard deviations of rounding an axis: "
-                f"the written digits explain it (p {self.p_value:.2f})"
-            )
-        if self.explained_by == "touch noise":
-            return (
-                f"gap to the {name}: {text} mm, more than rounding gives but within the touches' own noise "
-                f"(p {self.p_value:.2f})"
-            )
-        return (
-            f"gap to the {name}: {text} mm is NOT explained by rounding or by the touches' noise "
-            f"(p {self.p_value:.1g}): the tool, the arm or the stated values differ"
-        )
+        return phrase(f"gap.{key}", name=name, gap=text, most=most, p=self.p_value).text(language)
 
 
 def gap_to(name: str, stated: np.ndarray, result: ToolCalibration, effect: Rounding) -> Gap:

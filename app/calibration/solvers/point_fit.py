@@ -6,7 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from app.errors import DegenerateGeometryError, TooFewPointsError
+from app.calibration.wording import degenerate
+from app.errors import TooFewPointsError
 
 #: Smallest angular spread [rad] of the touches about any axis that counts as a turn at all.
 NO_TURN = 1e-6
@@ -47,14 +48,9 @@ class PointFit:
 def refuse_too_few(count: int) -> None:
     """Raises TooFewPointsError below three touches: two leave the turn between them open."""
     if count < 3:
-        touches = "1 touch" if count == 1 else f"{count} touches"
-        raise TooFewPointsError(
-            f"{touches} cannot determine a tool point: at least 3 are needed",
-            rank=0 if count < 2 else 2,
-            needed=3,
-            advice="touch the same point again with the tool tilted another way",
-            code="too_few",
-        )
+        key = "too_few_one" if count == 1 else "too_few"
+        rank = 0 if count < 2 else 2
+        raise degenerate("too_few", key, kind=TooFewPointsError, rank=rank, needed=3, count=count)
 
 
 def refuse_one_axis(rotations: np.ndarray, least: float = NO_TURN) -> tuple[np.ndarray, np.ndarray]:
@@ -76,19 +72,7 @@ def refuse_one_axis(rotations: np.ndarray, least: float = NO_TURN) -> tuple[np.n
     rank = int((spread > max(least, NO_TURN)).sum())
     if rank < 3:
         unseen = directions[-1] * np.sign(directions[-1][np.argmax(np.abs(directions[-1]))])
-        if rank == 0:
-            message = "all touches have the same orientation"
-            advice = "tilt the tool between touches, about two different axes"
-        else:
-            message = "all touches turn about one axis"
-            advice = "tilt the tool about another axis as well"
         along = "(" + ", ".join(f"{v:.2f}" for v in np.round(unseen, 2) + 0.0) + ")"
-        raise DegenerateGeometryError(
-            f"{message} ({along} in the flange): the tool point along it stays open",
-            rank=rank,
-            needed=3,
-            unseen=along,
-            advice=advice,
-            code="one_axis",
-        )
+        key = "same_orientation" if rank == 0 else "one_axis"
+        raise degenerate("one_axis", key, rank=rank, needed=3, unseen=along, along=along)
     return values, directions
