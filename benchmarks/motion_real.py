@@ -13,7 +13,7 @@ from pathlib import Path
 
 import numpy as np
 
-from app.diagnosis.motion.engine import _ready
+from app.diagnosis.motion.engine import ready
 from app.diagnosis.motion.errors import ErrorTable
 from app.diagnosis.motion.sampling import take_samples
 from app.diagnosis.motion.study import examine
@@ -27,7 +27,7 @@ def run(folder: Path) -> dict[str, np.ndarray]:
     """File -> (steps, n) root mean square error [Nm] of a model learnt on run_a alone."""
     learnt = read_table(folder / "run_a.csv")
     robot = load_robot(learnt.keys["robot"], relative_to=folder)
-    log, motion, _ = _ready(learnt, robot)
+    log, motion, _ = ready(learnt, robot)
     study = examine(log, robot, motion, lambda share, what: None, 0)
     table = ErrorTable(
         study.system,
@@ -44,7 +44,7 @@ def run(folder: Path) -> dict[str, np.ndarray]:
     ]
     out = {}
     for name in ("run_b.csv", "run_c.csv"):
-        new, moved, _ = _ready(read_table(folder / name), robot)
+        new, moved, _ = ready(read_table(folder / name), robot)
         raw = take_samples(new, robot, moved, new.y, lambda share, what: None)
         rows = [_rms(raw.y, raw.usable)]
         for terms in ([], friction, lasting):

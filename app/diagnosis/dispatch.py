@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import importlib
 import re
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -21,6 +23,7 @@ from app.errors import (
 )
 from app.kinematics import RobotModel, load_robot
 from app.recordings import Table, read_table
+from app.recordings.joining import joined
 
 #: Kind of recording -> the package whose `diagnose` reads it. Imported when needed.
 ENGINES = {
@@ -56,23 +59,77 @@ def diagnose_file(
         Cancelled: `progress` stopped it.
     """
     table = read_table(path)
-    kind, noted = kind_of(table)
+    kind, _ = kind_of(table)
     arm = robot_for(table, robot)
+    extra = {} if reference is None else {"reference": _reference(reference, kind, path, arm)}
+    return _diagnosed(table, arm, model, progress, seed, extra)
+
+
+def diagnose_together(
+    paths: Sequence[str | Path],
+    *,
+    robot: str | None = None,
+    model: SavedModel | None = None,
+    progress: Progress | None = None,
+    seed: int = 0,
+) -> Diagnosis:
+    """Diagnoses several touch or tracker recordings of one arm as one: what they share is the arm.
+
+    Raises:
+        InputError: one of them cannot be used, or they do not belong together.
+        Cancelled: `progress` stopped it.
+    """
+    tables = [read_table(path) for path in paths]
+    kinds = [kind_of(table)[0] for table in tables]
+    arms = [robot_for(table, robot) for table in tables]
+    for table, kind, arm in zip(tables, kinds, arms, strict=True):
+        if family(kind) != "static":
+            raise InputError(
+                "joint logs are not joined: each follows a clock of its own",
+                file=table.path,
+                column="kind",
+                expected="touch or tracker; for a log --reference, or --model with what another log taught",
+            )
+        if arm.path.resolve() != arms[0].path.resolve():
+            raise InputError(
+                f"its robot is {arm.name} at {arm.path}",
+                file=table.path,
+                column="robot",
+                expected=f"{arms[0].path} as in {tables[0].path}, or one --robot for all",
+            )
+        check_joints(table, arm)
+        check_sizes(table)
+    table, notes = joined(tables)
+    found = _diagnosed(table, arms[0], model, progress, seed, {})
+    return replace(found, notes=(*notes, *found.notes))
+
+
+def _diagnosed(
+    table: Table,
+    arm: RobotModel,
+    model: SavedModel | None,
+    progress: Progress | None,
+    seed: int,
+    extra: dict[str, Any],
+) -> Diagnosis:
+    kind, noted = kind_of(table)
     check_joints(table, arm)
     if family(kind) == "static":
         check_sizes(table)
     if model is not None and model.kind != family(kind):
         raise InputError(
             f"the model given was learnt from {model.kind} recordings and this one is of kind {kind}",
-            file=path,
+            file=table.path,
             expected=f"a model of kind {family(kind)}",
         )
     engine = importlib.import_module(ENGINES[kind])
-    extra = {}
-    if reference is not None:
-        extra["reference"] = _reference(reference, kind, path, arm)
     found: Diagnosis = engine.diagnose(table, arm, progress=progress, seed=seed, model=model, **extra)
-    return replace(found, file=str(path), kind=kind, notes=(*noted, *found.notes))
+    found = replace(found, file=str(table.path), kind=kind, notes=(*noted, *found.notes))
+    if model is None:
+        return found
+    from app.diagnosis.judging import judge
+
+    return replace(found, judged=judge(table, arm, model, found.outliers))
 
 
 def family(kind: str) -> str:

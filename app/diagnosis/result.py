@@ -95,6 +95,19 @@ class Leftover:
     where: Mapping[str, Any]
 
 
+@dataclass(frozen=True)
+class Judged:
+    """What a model learnt elsewhere makes of this recording: nothing but what a set-up leaves open is fitted.
+
+    Args:
+        source: the recording it was learnt from.
+        steps: what is in the simulation -> the error, the bare description first.
+    """
+
+    source: str
+    steps: Mapping[str, Quality]
+
+
 @dataclass(frozen=True, eq=False)
 class Evidence:
     """What pictures are drawn from; not part of the JSON.
@@ -153,6 +166,7 @@ class Diagnosis:
     Args:
         notes: warnings for a person: rows doubled, masses assumed, noise unknown, a filter's choice.
         model: the found effects as data, see model.py.
+        judged: a model that was given, on this recording; None where none was.
         next_poses: joint positions [rad or m] that would best separate the two best explanations.
     """
 
@@ -171,6 +185,7 @@ class Diagnosis:
     seconds: float
     notes: tuple[str, ...] = ()
     model: Mapping[str, Any] = field(default_factory=dict)
+    judged: Judged | None = None
     evidence: Evidence | None = field(default=None, repr=False)
 
     def to_json(self) -> dict[str, Any]:
@@ -192,6 +207,8 @@ class Diagnosis:
             "seconds": self.seconds,
             "notes": list(self.notes),
         }
+        if self.judged is not None:
+            out["judged"] = self.judged
         return _plain(out)
 
 

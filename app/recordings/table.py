@@ -79,6 +79,11 @@ class Table:
         return len(self._body[0])
 
     @property
+    def body(self) -> pl.DataFrame:
+        """Every cell as text, one column a name."""
+        return self._body[0]
+
+    @property
     def rows(self) -> np.ndarray:
         """(n,) line number in the file of every data row."""
         return self._body[1]

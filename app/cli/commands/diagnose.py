@@ -35,6 +35,9 @@ class Command:
     reference: Annotated[Path | None, tyro.conf.arg(metavar="FILE")] = None
     """A motion recording of the same arm in a known good state: what changed since?"""
 
+    together: Annotated[bool, tyro.conf.FlagCreatePairsOff] = False
+    """Take several touch or tracker recordings of one arm as one: what they share is learnt, each keeps its set-up."""
+
     json: Annotated[bool, tyro.conf.FlagCreatePairsOff] = False
     """One JSON object a file, one a line, in the order of the files."""
 
@@ -45,7 +48,7 @@ class Command:
     """Write what was found as a model that the simulation, the pendant and --model load."""
 
     model: Annotated[Path | None, tyro.conf.arg(metavar="IN.json")] = None
-    """Take a saved model as part of the robot: what is left beyond it?"""
+    """Take a saved model as part of the robot: how well does it do on this recording, and what is left beyond it?"""
 
     save_urdf: Annotated[Path | None, tyro.conf.arg(metavar="OUT.urdf")] = None
     """Write the robot's description with those findings in it that a URDF can hold."""
@@ -76,10 +79,14 @@ class Command:
     def _check(self) -> None:
         if not self.files:
             raise InputError("no file given", expected="teachframe diagnose FILE...")
-        if len(self.files) > 1:
+        if self.together and self.reference is not None:
+            raise InputError("--together with --reference", expected="one of the two")
+        if len(self.files) > 1 and not self.together:
             for option, value in (("--save-model", self.save_model), ("--save-urdf", self.save_urdf)):
                 if value is not None:
-                    raise InputError(f"{option} with {len(self.files)} recordings", expected="one recording")
+                    raise InputError(
+                        f"{option} with {len(self.files)} recordings", expected="one recording, or --together"
+                    )
         for out in (self.report, self.save_model, self.save_urdf):
             if out is not None and not out.parent.is_dir():
                 raise InputError("there is no such folder", file=out.parent, expected="a folder to write to")
@@ -87,8 +94,14 @@ class Command:
     def _outcomes(self, model: SavedModel | None, progress) -> Iterator[Outcome]:
         """One file in this process, with its progress; several in their own, side by side."""
         from app.diagnosis.batch import Outcome, diagnose_many
-        from app.diagnosis.dispatch import diagnose_file
+        from app.diagnosis.dispatch import diagnose_file, diagnose_together
 
+        if self.together and len(self.files) > 1:
+            found = diagnose_together(
+                self.files, robot=self.robot, model=model, progress=progress.update, seed=self.seed
+            )
+            yield Outcome(str(self.files[0]), found)
+            return
         if len(self.files) == 1:
             found = diagnose_file(
                 self.files[0],
@@ -138,12 +151,16 @@ class Command:
 
         return robot_for(read_table(file), self.robot)
 
+    def _sources(self, kept: list) -> list[str]:
+        """The file of each diagnosis; of several taken together the first."""
+        return [str(self.files[0])] if self.together else [d.file for d in kept]
+
     def _write(self, kept: list) -> None:
         """The files asked for, each named on stderr."""
         if self.report is not None:
             from app.diagnosis.report import write_report
 
-            robots = [self._robot(d.file) for d in kept]
+            robots = [self._robot(f) for f in self._sources(kept)]
             write_report(self.report, kept, robots, command=_command_line(), seed=self.seed)
             print(f"report: {self.report}", file=sys.stderr)
         if self.save_model is None and self.save_urdf is None:
@@ -157,7 +174,7 @@ class Command:
         if self.save_urdf is not None:
             from app.diagnosis.corrected import save_corrected_urdf
 
-            for line in save_corrected_urdf(self._robot(kept[0].file), model, self.save_urdf):
+            for line in save_corrected_urdf(self._robot(self._sources(kept)[0]), model, self.save_urdf):
                 print(line, file=sys.stderr)
             print(f"description: {self.save_urdf}", file=sys.stderr)
 

@@ -48,10 +48,10 @@ def diagnose(
     tell(0.0, "reading")
     given = Given(effects=model.effects if model else (), mass_prior=_mass_prior(table))
     if reference is not None:
-        known, motion, without = _ready(reference, robot)
+        known, motion, without = ready(reference, robot)
         study = examine(known, robot, motion, lambda share, what: tell(0.4 * share, what), seed, given)
         given = replace(given, base=baseline_of(study), without=without)
-    log, motion, without = _ready(table, robot)
+    log, motion, without = ready(table, robot)
     given = replace(given, without=given.without | without)
     study = examine(log, robot, motion, tell, seed, given)
     tell(0.95, "report")
@@ -60,7 +60,7 @@ def diagnose(
     return replace(out, seconds=time.perf_counter() - started)
 
 
-def _ready(table: Table, robot: RobotModel) -> tuple[Log, Motion, frozenset[str]]:
+def ready(table: Table, robot: RobotModel) -> tuple[Log, Motion, frozenset[str]]:
     """The log in newton-metres, its motion, and effects it cannot tell."""
     log = read_log(table, robot)
     motion = motion_of(log)

@@ -11,6 +11,7 @@ from app.diagnosis.report.parts.case import Case
 from app.diagnosis.report.parts.drivers import drivers
 from app.diagnosis.report.parts.findings import findings
 from app.diagnosis.report.parts.head import head
+from app.diagnosis.report.parts.judged import judged
 from app.diagnosis.report.parts.lists import leftover, next_poses, notes, outliers
 from app.diagnosis.report.parts.making import making, reading
 from app.diagnosis.report.parts.space import space
@@ -20,7 +21,7 @@ from app.diagnosis.result import Diagnosis
 from app.errors import InputError
 from app.kinematics import RobotModel
 
-SECTIONS = (findings, leftover, drivers, space, timeline, outliers, next_poses, notes)
+SECTIONS = (judged, findings, leftover, drivers, space, timeline, outliers, next_poses, notes)
 
 
 def as_page(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import textwrap
 from collections.abc import Sequence
+from pathlib import Path
 
 from app.diagnosis.report.wording import (
     NOISE_SOURCES,
@@ -16,7 +17,7 @@ from app.diagnosis.report.wording import (
     quantity,
     verdict_sentence,
 )
-from app.diagnosis.result import Diagnosis, Finding
+from app.diagnosis.result import Diagnosis, Finding, Judged
 
 WIDTH = 100
 _LABEL = 17
@@ -38,6 +39,8 @@ def as_text(diagnosis: Diagnosis, *, prismatic: Sequence[bool] = (), seconds: bo
         "",
         *_quality(d),
     ]
+    if d.judged is not None:
+        lines += ["", *_judged(d.judged)]
     for number, finding in enumerate(d.findings, 1):
         lines += ["", *_finding(number, finding, d.after.unit)]
     lines += ["", *_rest(d, prismatic)]
@@ -63,6 +66,20 @@ def _quality(d: Diagnosis) -> list[str]:
         ).rstrip(),
         row("  noise", "", measure(d.noise.value, d.noise.unit), NOISE_SOURCES[d.noise.source]),
     ]
+
+
+def _judged(judged: Judged) -> list[str]:
+    """What a model learnt elsewhere makes of this recording."""
+    first = next(iter(judged.steps.values()))
+    fitted = "" if first.unit == "Nm" else ", base and tool fitted anew"
+    learnt = Path(judged.source).name if judged.source else "elsewhere"
+    lines = _wrapped(
+        f"the given model on this recording (learnt on {learnt}{fitted}), rows held out:", indent=2
+    )
+    for what, quality in judged.steps.items():
+        smaller = "" if quality is first else fall(first.heldout_rms, quality.heldout_rms)
+        lines.append(f"  {what:<29}{measure(quality.heldout_rms, quality.unit):>10}   {smaller}".rstrip())
+    return lines
 
 
 def _finding(number: int, f: Finding, unit: str) -> list[str]:

@@ -1,0 +1,87 @@
+"""A model learnt on other recordings, judged on one it has not seen: the error before and after, nothing searched."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from app.diagnosis.model import ModelEffect, SavedModel
+from app.diagnosis.result import Judged, Quality
+from app.kinematics import RobotModel
+from app.kinematics.dynamics import PER_LINK
+from app.recordings import Table
+
+BARE, WITH, MASSES = "description alone", "with the model", "with the model's masses only"
+
+
+def judge(table: Table, robot: RobotModel, model: SavedModel, outliers: Sequence[int] = ()) -> Judged:
+    """Error of the bare description and of the model.
+
+    Static recordings: base, tool and targets are fitted in both, which every recording leaves open, and nothing
+    else. Joint logs: nothing is fitted at all.
+
+    Args:
+        outliers: rows set aside in both (static).
+
+    Raises:
+        InputError, DegenerateGeometryError: the recording cannot be used.
+    """
+    steps = _motion(table, robot, model) if model.kind == "motion" else _static(table, robot, model, outliers)
+    return Judged(model.source, steps)
+
+
+def _static(
+    table: Table, robot: RobotModel, model: SavedModel, outliers: Sequence[int]
+) -> dict[str, Quality]:
+    from app.diagnosis.static.findings import quality
+    from app.diagnosis.static.models import held_terms, undone
+    from app.diagnosis.static.plain import plain_fit
+    from app.diagnosis.static.reading import read_static, renumbered
+
+    recording = read_static(table, robot)
+    kept = ~np.isin(recording.rows, np.asarray(outliers, int))
+    if not kept.all():
+        recording = renumbered(recording.subset(kept))
+    told = undone(model, recording, robot)
+    return {
+        BARE: quality(plain_fit(recording, ())),
+        WITH: quality(plain_fit(told, held_terms(model, told.situation, told.file))),
+    }
+
+
+def _motion(table: Table, robot: RobotModel, model: SavedModel) -> dict[str, Quality]:
+    from app.diagnosis.motion.engine import ready
+    from app.diagnosis.motion.library import laws
+    from app.diagnosis.motion.sampling import take_samples
+
+    log, motion, _ = ready(table, robot)
+    samples = take_samples(log, robot, motion, log.y, lambda share, what: None)
+    residual = samples.y.copy()
+    steps = {BARE: _torque(residual, samples.usable)}
+    masses = np.array(model.nuisance.get("inertial", ()), float)
+    if len(masses) == PER_LINK * robot.joint_count:
+        for j in range(robot.joint_count):
+            residual[:, j] -= samples.regressor[:, :, j] @ masses
+        steps[MASSES] = _torque(residual, samples.usable)
+    for effect in model.effects:
+        law = laws().get(effect.effect)
+        if law is None or not _lasting(effect):
+            continue
+        added = samples.pool(law.apply(samples.state, effect.where, effect.parameters))
+        if added.ndim == 1:
+            residual[:, int(effect.where["joint"]) - 1] -= added
+        else:
+            residual -= added
+    steps[WITH] = _torque(residual, samples.usable)
+    return steps
+
+
+def _lasting(effect: ModelEffect) -> bool:
+    """A contact or a load taken up belongs to the log it was found in."""
+    return "from_s" not in effect.where
+
+
+def _torque(residual: np.ndarray, usable: np.ndarray) -> Quality:
+    rms = float(np.sqrt(np.mean(residual[usable] ** 2))) if usable.any() else float("nan")
+    return Quality(rms, rms, "Nm")
