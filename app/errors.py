@@ -9,6 +9,7 @@ TeachframeError
 │   └── UnknownNameError          a name that is not in a catalogue; lists what is
 ├── DegenerateGeometryError       the points cannot determine what is asked (exit code 2)
 │   └── TooFewPointsError         fewer points than unknowns need
+├── StorageError                  the database did not keep or give what was asked
 └── ActionRefusedError            a session's state does not allow the action
 
 Each carries its evidence as attributes and says itself in one line, `str(error)`.
@@ -141,6 +142,10 @@ class DegenerateGeometryError(TeachframeError):
 
 class TooFewPointsError(DegenerateGeometryError):
     """Fewer points than the unknowns need."""
+
+
+class StorageError(TeachframeError):
+    """The database did not keep or give what was asked; nothing was changed."""
 
 
 class ActionRefusedError(TeachframeError):

@@ -213,8 +213,6 @@ class Pendant:
             recorded = len(self.session.state.captures)
             if how == "lost":
                 self.say("warning", self.t("message.lost"))
-            elif self.session.torn:
-                self.say("warning", self.t("message.torn"))
             elif how == "back" and recorded:
                 self.say("good", self.t("message.back", points=recorded))
             else:

@@ -26,7 +26,7 @@ class Hub:
     """
 
     def __init__(self, store: Store, robot: str | None):
-        self._store, self._robot = store, robot
+        self.store, self._robot = store, robot
         self._lock = threading.RLock()
         self._open: dict[str, Session] = {}
         self._views: dict[str, View] = {}
@@ -42,12 +42,12 @@ class Hub:
                 return self._open[token], "back"
             how = "new"
             session = None
-            if token and self._store.has(token):
+            if token and self.store.has(token):
                 try:
-                    session, how = self._store.open(token), "back"
+                    session, how = self.store.open(token), "back"
                 except TeachframeError:
                     how = "lost"
-            session = session or self._store.create(robot=self._robot)
+            session = session or self.store.create(robot=self._robot)
             self._open[session.name] = session
             return session, how
 

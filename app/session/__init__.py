@@ -6,9 +6,10 @@
     steps/        one file a family of actions: (state, action) -> state
     reducer.py    sends an action to its family; undo and redo
     points.py     a points file as one action
-    journal.py    one JSON line an action, on the disk before it counts
+    journal.py    a journal as a file: one JSON line an action
     session.py    Session: the state that moves, with its journal behind it
-    store.py      the folder of all sessions
+    database.py   SQLite, or any other database by URL: an action is on the disk before it counts
+    store.py      all sessions, a row an action
     report.py     what a replay prints
 
 The browser, the command line, the replay and the tests all speak actions, so a whole wizard runs without a

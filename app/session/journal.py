@@ -1,15 +1,15 @@
-"""The journal: one JSON line an action, on the disk before the action counts.
+"""The journal as a file: one JSON line an action. What is exported, replayed, and kept where nobody has a database.
 
-The first line says what the file is. A process killed while writing leaves at most one torn last line: reading
-passes over it and says so, writing on cuts it off first.
+The first line says what the file is. A copy cut short has at most one torn last line: reading passes over it and says
+so.
 """
 
 from __future__ import annotations
 
-import os
-import time
+from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Protocol
 
 import msgspec
 
@@ -40,16 +40,41 @@ class Recorded:
     """A journal as read.
 
     Args:
-        header: what the file says of itself.
+        header: what it says of itself.
         entries: the actions in order.
-        length: bytes up to the end of the last whole line.
-        torn: True where a line after that was not finished.
+        torn: True where a last line was not finished.
+        source: where it was read from, for messages.
+        first_row: row of the first action there, for messages.
     """
 
     header: Header
     entries: tuple[Entry, ...]
-    length: int
-    torn: bool
+    torn: bool = False
+    source: str | Path = ""
+    first_row: int = 1
+
+
+class Journal(Protocol):
+    """What a session writes its actions to."""
+
+    @property
+    def recorded(self) -> Recorded:
+        """What was there when it was opened."""
+        ...
+
+    def append(self, action: AnyAction) -> Entry:
+        """Keeps one action: when this returns, nothing that happens to the process can lose it."""
+        ...
+
+    def close(self) -> None:
+        """No more actions; closing twice is fine."""
+        ...
+
+
+def encode_journal(header: Header, entries: Iterable[Entry]) -> bytes:
+    """The file's content."""
+    lines = [msgspec.json.encode(header), *(msgspec.json.encode(entry) for entry in entries)]
+    return b"\n".join(lines) + b"\n"
 
 
 def read_journal(path: Path) -> Recorded:
@@ -66,93 +91,24 @@ def read_journal(path: Path) -> Recorded:
     lines = whole.split(b"\n") if whole else []
     if not lines:
         raise FileFormatError("not a session's journal", file=path, row=1, expected=FORMAT)
-    header = _decode(lines[0], Header, path, 1)
+    header = decoded(lines[0], Header, path, 1)
     if header.format != FORMAT:
         raise FileFormatError(f"its format is {header.format!r}", file=path, row=1, expected=FORMAT)
     entries = []
     for row, line in enumerate(lines[1:], 2):
-        entry = _decode(line, Entry, path, row)
+        entry = decoded(line, Entry, path, row)
         if entry.n != row - 1:
             raise FileFormatError(
                 f"action number {entry.n}", file=path, row=row, column="n", expected=str(row - 1)
             )
         entries.append(entry)
-    return Recorded(header, tuple(entries), len(whole) + 1, bool(rest))
+    return Recorded(header, tuple(entries), bool(rest), path, 2)
 
 
-def _decode(line: bytes, kind: type, path: Path, row: int):
+def decoded(text: bytes | str, kind, source: str | Path, row: int):
+    """A header, an entry or an action from its JSON; raises FileFormatError that names the row."""
     try:
-        return msgspec.json.decode(line, type=kind)
+        return msgspec.json.decode(text, type=kind)
     except (msgspec.DecodeError, UnicodeDecodeError) as error:
         expected = "a session's journal" if kind is Header else "one action as JSON"
-        raise FileFormatError(f"not readable ({error})", file=path, row=row, expected=expected) from None
-
-
-class Journal:
-    """A journal open for writing. Each line is on the disk when `append` returns.
-
-    Args:
-        path: the file; made, with its header, where it is not there yet.
-        session: name of the session, for a new file.
-    """
-
-    def __init__(self, path: Path, session: str):
-        self.path = path
-        if _begun(path):
-            recorded = read_journal(path)
-            self.recorded = recorded
-            self._file = path.open("r+b", buffering=0)
-            self._file.truncate(recorded.length)
-            self._file.seek(recorded.length)
-        else:
-            header = Header(session, time.time())
-            self.recorded = Recorded(header, (), 0, False)
-            path.parent.mkdir(parents=True, exist_ok=True)
-            self._file = path.open("wb", buffering=0)
-            self._write(msgspec.json.encode(header))
-            _sync_folder(path.parent)
-        self._count = len(self.recorded.entries)
-
-    def append(self, action: AnyAction) -> Entry:
-        """Writes one action and waits until the disk has it."""
-        entry = Entry(self._count + 1, round(time.time(), 3), action)
-        self._write(msgspec.json.encode(entry))
-        self._count += 1
-        return entry
-
-    def close(self) -> None:
-        """Closes the file; closing twice is fine."""
-        self._file.close()
-
-    def _write(self, line: bytes) -> None:
-        start = self._file.tell()
-        try:
-            rest = memoryview(line + b"\n")
-            while rest:
-                rest = rest[self._file.write(rest) :]
-            os.fsync(self._file.fileno())
-        except (
-            OSError
-        ):  # a full disk: leave no half line behind, so that the next action can still be written
-            self._file.seek(start)
-            self._file.truncate(start)
-            raise
-
-
-def _begun(path: Path) -> bool:
-    """True where the file has at least its first line: a process killed before that left nothing to lose."""
-    if not path.exists():
-        return False
-    with path.open("rb") as file:
-        return file.readline().endswith(b"\n")
-
-
-def _sync_folder(folder: Path) -> None:
-    """A new file's name is only safe once its folder is on the disk too."""
-    if os.name != "posix":
-        return
-    handle = os.open(folder, os.O_RDONLY)
-    try:
-        os.fsync(handle)
-    finally:
-        os.close(handle)
+        raise FileFormatError(f"not readable ({error})", file=source, row=row, expected=expected) from None

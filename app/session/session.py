@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import threading
-from pathlib import Path
+import time
 
 from app.errors import ActionRefusedError, FileFormatError
 from app.session.actions import AnyAction, ChooseRobot
-from app.session.journal import Journal, read_journal
+from app.session.journal import Entry, Journal, Recorded
 from app.session.reducer import reduce
 from app.session.state import SessionState, first_state
 
@@ -23,11 +23,9 @@ class Session:
     def __init__(self, journal: Journal | None = None, *, robot: str | None = None):
         self._journal = journal
         self._lock = threading.RLock()
-        self.state = first_state()
-        self.torn = self.closed = False
-        if journal is not None:
-            self.state = _replayed(journal.recorded.entries, journal.path)
-            self.torn = journal.recorded.torn
+        self.closed = False
+        self._entries: list[Entry] = [] if journal is None else list(journal.recorded.entries)
+        self.state = first_state() if journal is None else replay(journal.recorded)
         if (
             not self.state.count
         ):  # the arm stands in the journal, so that a change of the usual one changes nothing
@@ -39,22 +37,25 @@ class Session:
         return self._journal.recorded.header.session if self._journal else ""
 
     @property
-    def path(self) -> Path:
-        """The journal's file; only where there is one."""
-        if self._journal is None:
-            raise ValueError("this session keeps no journal")
-        return self._journal.path
+    def entries(self) -> tuple[Entry, ...]:
+        """All actions so far, with their times."""
+        with self._lock:
+            return tuple(self._entries)
 
     def do(self, action: AnyAction) -> SessionState:
-        """Does one action: first tried, then written, then taken over.
+        """Does one action: first tried, then kept, then taken over.
 
         Raises:
             ActionRefusedError: the state does not allow it; state and journal are as before.
+            StorageError: it could not be kept; state and journal are as before.
         """
         with self._lock:
             after = reduce(self.state, action)
-            if self._journal is not None:
-                self._journal.append(action)
+            number = len(self._entries) + 1
+            kept = (
+                Entry(number, time.time(), action) if self._journal is None else self._journal.append(action)
+            )
+            self._entries.append(kept)
             self.state = after
             return after
 
@@ -65,21 +66,18 @@ class Session:
             self._journal.close()
 
 
-def replay(path: Path) -> tuple[SessionState, bool]:
-    """The state a journal leads to, and whether its last line was torn.
+def replay(recorded: Recorded) -> SessionState:
+    """The state a journal leads to.
 
     Raises:
-        FileFormatError: not a journal, or an action the state before it does not allow.
+        FileFormatError: an action the state before it does not allow.
     """
-    recorded = read_journal(path)
-    return _replayed(recorded.entries, path), recorded.torn
-
-
-def _replayed(entries, path: Path) -> SessionState:
     state = first_state()
-    for row, entry in enumerate(entries, 2):
+    for row, entry in enumerate(recorded.entries, recorded.first_row):
         try:
             state = reduce(state, entry.action)
         except ActionRefusedError as error:
-            raise FileFormatError(f"this action is not possible here ({error})", file=path, row=row) from None
+            raise FileFormatError(
+                f"this action is not possible here ({error})", file=recorded.source, row=row
+            ) from None
     return state

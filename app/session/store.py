@@ -1,29 +1,45 @@
-"""The folder of all sessions: one journal each, under a name nobody guesses."""
+"""All sessions, in the database: one name nobody guesses each, one row an action."""
 
 from __future__ import annotations
 
 import re
 import secrets
+import time
 from dataclasses import dataclass
 from pathlib import Path
 
+import msgspec
 import platformdirs
+from sqlalchemy import func, insert, select
 
-from app.errors import InputError, TeachframeError, UnknownNameError
-from app.session.journal import Journal, read_journal
-from app.session.session import Session
+from app.errors import FileFormatError, InputError, TeachframeError, UnknownNameError
+from app.session.actions import AnyAction
+from app.session.database import ACTIONS, FILE, SESSIONS, Database, sqlite_url
+from app.session.journal import Entry, Header, Recorded, decoded, encode_journal, read_journal
+from app.session.session import Session, replay
+from app.session.state import SessionState
 
 JOURNAL = "journal.jsonl"
 _NAME = re.compile(r"[0-9a-f]{32}\Z")
+_ROBOT = '{"do":"choose_robot"%'
 
 
 @dataclass(frozen=True)
 class Listed:
-    """A session in the store: its name, when it began (seconds since 1970), how many actions it holds."""
+    """A session in the store.
+
+    Args:
+        name: its name.
+        created, last: when it began and when the last action was done (seconds since 1970).
+        actions: how many it holds.
+        robot: its arm.
+    """
 
     name: str
     created: float
+    last: float
     actions: int
+    robot: str = ""
 
 
 def default_folder() -> Path:
@@ -32,72 +48,178 @@ def default_folder() -> Path:
 
 
 class Store:
-    """Sessions under DATA/sessions/NAME/journal.jsonl.
+    """Every session there is.
 
     Args:
-        folder: the data folder; None takes the user's own.
+        folder: the data folder; None takes the user's own. Journals of earlier versions found below it
+            (sessions/NAME/journal.jsonl) are taken over once and left where they are.
+        database: URL of a database; None keeps a SQLite file in the data folder.
 
     Raises:
-        InputError: the folder cannot be written.
+        InputError: folder or database cannot be used.
     """
 
-    def __init__(self, folder: Path | None = None):
-        self.folder = (folder or default_folder()) / "sessions"
-        try:
-            self.folder.mkdir(parents=True, exist_ok=True)
-        except OSError as error:
-            raise InputError(f"cannot be written ({error.strerror})", file=self.folder) from None
+    def __init__(self, folder: Path | None = None, database: str | None = None):
+        self.folder = folder or default_folder()
+        self.database = Database(database or sqlite_url(self.folder / FILE))
+        for path in sorted((self.folder / "sessions").glob(f"*/{JOURNAL}")):
+            if _NAME.match(path.parent.name) and not self.has(path.parent.name):
+                try:
+                    self.take(read_journal(path), path.parent.name)
+                except TeachframeError:  # damaged: it stays where it is
+                    continue
 
     def create(self, *, robot: str | None = None) -> Session:
         """A new, empty session."""
-        name = secrets.token_hex(16)
-        return Session(Journal(self.path(name), name), robot=robot)
+        header = Header(secrets.token_hex(16), time.time())
+        with self.database.begin() as connection:
+            connection.execute(insert(SESSIONS), {"name": header.session, "created": header.created})
+        return Session(_Journal(self.database, Recorded(header, ())), robot=robot)
 
     def open(self, name: str) -> Session:
         """A session that was there before, as it was left.
 
         Raises:
             UnknownNameError: there is none of this name.
-            FileFormatError: its journal is damaged in its middle.
+            FileFormatError: a row of it is damaged.
         """
-        if not self.has(name):
-            raise UnknownNameError(name, available=[s.name for s in self.list()], what="session")
-        return Session(Journal(self.path(name), name))
+        return Session(_Journal(self.database, self.recorded(name)))
 
     def has(self, name: str) -> bool:
         """True where this session is kept here; any text may be asked about."""
-        return bool(_NAME.match(name)) and self.path(name).is_file()
+        if not _NAME.match(name):
+            return False
+        with self.database.begin() as connection:
+            return (
+                connection.execute(select(SESSIONS.c.name).where(SESSIONS.c.name == name)).first() is not None
+            )
 
-    def path(self, name: str) -> Path:
-        """The journal of a session."""
-        return self.folder / name / JOURNAL
+    def recorded(self, name: str) -> Recorded:
+        """The journal of a session.
 
-    def list(self) -> list[Listed]:
-        """All readable sessions, the newest first."""
-        found = []
-        for path in self.folder.glob(f"*/{JOURNAL}"):
-            try:
-                recorded = read_journal(path)
-            except TeachframeError:
-                continue
-            found.append(Listed(path.parent.name, recorded.header.created, len(recorded.entries)))
-        return sorted(found, key=lambda listed: -listed.created)
+        Raises:
+            UnknownNameError: there is none of this name.
+            FileFormatError: a row of it is damaged.
+        """
+        with self.database.begin() as connection:
+            head = connection.execute(select(SESSIONS).where(SESSIONS.c.name == name)).first()
+            rows = connection.execute(
+                select(ACTIONS.c.n, ACTIONS.c.t, ACTIONS.c.action)
+                .where(ACTIONS.c.session == name)
+                .order_by(ACTIONS.c.n)
+            ).all()
+        if head is None:
+            raise UnknownNameError(name, available=self.names()[:12] or ["(no sessions)"], what="session")
+        source = f"session {name}"
+        entries = tuple(Entry(n, t, decoded(text, AnyAction, source, n)) for n, t, text in rows)
+        for number, entry in enumerate(entries, 1):
+            if entry.n != number:
+                raise FileFormatError(f"action {number} is missing", file=source, row=number)
+        return Recorded(Header(head.name, head.created), entries, source=source)
+
+    def state(self, name: str) -> SessionState:
+        """The state a session was left in, without opening it."""
+        return replay(self.recorded(name))
+
+    def find(self, text: str) -> Recorded:
+        """The session meant by its name or the beginning of it.
+
+        Raises:
+            UnknownNameError: none, or more than one.
+        """
+        names = self.names()
+        matching = [name for name in names if name.startswith(text)] if text else []
+        if len(matching) != 1:
+            raise UnknownNameError(text, available=names[:12] or ["(no sessions)"], what="session")
+        return self.recorded(matching[0])
+
+    def export(self, name: str) -> bytes:
+        """A session as the content of a JSONL file that `teachframe replay` reads."""
+        recorded = self.recorded(name)
+        return encode_journal(recorded.header, recorded.entries)
+
+    def take(self, recorded: Recorded, name: str | None = None) -> str:
+        """Takes a journal in from a file, under a new name unless one is given; the name."""
+        name = name or secrets.token_hex(16)
+        rows = [_row(name, entry) for entry in recorded.entries]
+        with self.database.begin() as connection:
+            connection.execute(insert(SESSIONS), {"name": name, "created": recorded.header.created})
+            if rows:
+                connection.execute(insert(ACTIONS), rows)
+        return name
+
+    def names(self) -> list[str]:
+        """Names of all sessions, the newest first."""
+        with self.database.begin() as connection:
+            return list(connection.scalars(select(SESSIONS.c.name).order_by(SESSIONS.c.created.desc())))
+
+    def list(self, most: int | None = None) -> list[Listed]:
+        """Sessions, the newest first."""
+        counted = (
+            select(SESSIONS.c.name, SESSIONS.c.created, func.max(ACTIONS.c.t), func.count(ACTIONS.c.n))
+            .outerjoin(ACTIONS, ACTIONS.c.session == SESSIONS.c.name)
+            .group_by(SESSIONS.c.name, SESSIONS.c.created)
+            .order_by(SESSIONS.c.created.desc(), SESSIONS.c.name)
+            .limit(most)
+        )
+        arms = (
+            select(ACTIONS.c.session, ACTIONS.c.action)
+            .where(ACTIONS.c.action.like(_ROBOT))
+            .order_by(ACTIONS.c.n)
+        )
+        with self.database.begin() as connection:
+            rows = connection.execute(counted).all()
+            chosen = connection.execute(arms.where(ACTIONS.c.session.in_([row[0] for row in rows]))).all()
+        robots = {session: msgspec.json.decode(text).get("robot", "") for session, text in chosen}
+        return [
+            Listed(name, created, last or created, count, robots.get(name, ""))
+            for name, created, last, count in rows
+        ]
 
 
-def find_journal(text: str, folder: Path | None = None) -> Path:
-    """The journal meant by a path, a session's folder, or its name (or the beginning of it) in the data folder.
+class _Journal:
+    """One session's rows, open for writing."""
+
+    def __init__(self, database: Database, recorded: Recorded):
+        self._database, self.recorded = database, recorded
+        self._count = len(recorded.entries)
+        self._closed = False
+
+    def append(self, action: AnyAction) -> Entry:
+        """A row, on the disk when this returns. A number is given once: two writers cannot both have it."""
+        if self._closed:
+            raise ValueError("this session is closed")
+        entry = Entry(self._count + 1, round(time.time(), 3), action)
+        with self._database.begin() as connection:
+            connection.execute(insert(ACTIONS), _row(self.recorded.header.session, entry))
+        self._count += 1
+        return entry
+
+    def close(self) -> None:
+        """No more actions."""
+        self._closed = True
+
+
+def _row(session: str, entry: Entry) -> dict[str, object]:
+    text = msgspec.json.encode(entry.action).decode()
+    return {"session": session, "n": entry.n, "t": entry.t, "action": text}
+
+
+def find_recorded(text: str, folder: Path | None = None, database: str | None = None) -> Recorded:
+    """The session meant by a file, a folder that holds one, or its name (or the beginning of it) in the store.
 
     Raises:
         UnknownNameError: none of these; lists the sessions there are.
+        FileFormatError: a file that is no journal.
     """
     path = Path(text)
     if path.is_dir() and (path / JOURNAL).is_file():
-        return path / JOURNAL
+        return read_journal(path / JOURNAL)
     if path.is_file():
-        return path
-    root = (folder or default_folder()) / "sessions"
-    names = [p.parent.name for p in sorted(root.glob(f"*/{JOURNAL}"))]
-    matching = [name for name in names if name.startswith(text)] if text else []
-    if len(matching) == 1:
-        return root / matching[0] / JOURNAL
-    raise UnknownNameError(text, available=names[:12] or ["(no sessions)"], what="session")
+        return read_journal(path)
+    root = folder or default_folder()
+    if database is None and not root.exists():
+        raise UnknownNameError(text, available=["(no sessions)"], what="session")
+    if database is None and not root.is_dir():
+        raise InputError("not a folder", file=root, expected="the data folder of the pendant")
+    return Store(folder, database).find(text)

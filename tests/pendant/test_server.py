@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from app.pendant.server import PendantServer
-from app.session import Store, replay
+from app.session import Store
 from app.session.actions import Record
 from benchmarks._browser import Browser
 
@@ -68,7 +68,7 @@ def test_a_reload_hands_the_session_back(enter, server):
     assert back.session.name == name and "touch1" in back.session.state.captures
 
 
-def test_a_second_tab_takes_over_and_the_first_lets_go(enter):
+def test_a_second_tab_takes_over_and_the_first_lets_go(enter, server):
     browser, first = enter()
     until(lambda: browser.token, "the token")
     _, second = enter(browser.token)
@@ -80,7 +80,7 @@ def test_a_second_tab_takes_over_and_the_first_lets_go(enter):
     browser.close()
     second.post(lambda: second.do(Record("touch2")))
     assert second.worker.idle()
-    assert "touch2" in replay(second.session.path)[0].captures
+    assert "touch2" in server.hub.store.state(second.session.name).captures
 
 
 def test_a_token_nobody_gave_out_begins_a_new_session(enter):
@@ -89,17 +89,16 @@ def test_a_token_nobody_gave_out_begins_a_new_session(enter):
     until(lambda: browser.token == pendant.session.name, "the new token")
 
 
-def test_a_damaged_journal_begins_a_new_session_and_keeps_the_file(enter, server):
+def test_a_damaged_journal_begins_a_new_session_and_keeps_the_rows(enter, server):
     browser, pendant = enter()
     until(lambda: browser.token, "the token")
     browser.close()
     until(lambda: not server.pendants and not server.hub.names, "the server to notice")
-    path = pendant.session.path
-    damaged = path.read_bytes() + b"rubbish\n"
-    path.write_bytes(damaged)
+    with server.hub.store.database.begin() as connection:
+        connection.exec_driver_sql("update actions set action = 'rubbish'")
     _, fresh = enter(browser.token)
     assert fresh.session.name != pendant.session.name
-    assert path.read_bytes() == damaged
+    assert server.hub.store.has(pendant.session.name)
     assert fresh.log[-1][1] == "warning"
 
 
@@ -142,7 +141,7 @@ def test_where_the_arm_was_left_is_written_when_the_browser_goes(enter, server):
     until(lambda: np.allclose(pendant.q, aim), "the arm to move")
     browser.close()
     until(lambda: not server.pendants and not server.hub.names, "the server to notice")
-    assert np.allclose(replay(pendant.session.path)[0].q, aim)
+    assert np.allclose(server.hub.store.state(pendant.session.name).q, aim)
 
 
 def test_another_arm_is_shown_with_its_own_joints(enter):

@@ -6,7 +6,7 @@ from app import resources
 from app.calibration.solving import solve_file, to_json
 from app.calibration.text import page
 from app.errors import ActionRefusedError, InputError
-from app.session import Store, reduce, replay
+from app.session import Store, reduce
 from app.session.actions import Calculate, LoadPoints
 from app.session.points import load_action
 from app.session.report import report_json, report_text
@@ -30,11 +30,12 @@ def test_a_loaded_file_gives_the_same_text_and_json_as_solve(loaded):
 def test_a_session_with_loaded_points_replays_without_the_file(tmp_path):
     file = tmp_path / "points.csv"
     file.write_bytes(PAPER.read_bytes())
-    session = Store(tmp_path).create(robot="jby50")
+    store = Store(tmp_path)
+    session = store.create(robot="jby50")
     session.do(load_action(file))
     session.do(Calculate())
     file.unlink()
-    state, _ = replay(session.path)
+    state = store.state(session.name)
     assert np.array_equal(state.result.result.tool_point, session.state.result.result.tool_point)
     assert report_text(state) == report_text(session.state)
 

@@ -4,25 +4,32 @@ import pytest
 
 from app.cli import run
 from app.session import Store
+from app.session.store import JOURNAL
 from tests.session.wizard import wizard_actions
 
 
 @pytest.fixture
 def taught(tmp_path):
-    session = Store(tmp_path).create(robot="ur10e")
+    """A session with a result, and the file it was exported to."""
+    store = Store(tmp_path)
+    session = store.create(robot="ur10e")
     for action in wizard_actions()[0]:
         session.do(action)
     session.close()
-    return session
+    path = tmp_path / "exported" / JOURNAL
+    path.parent.mkdir()
+    path.write_bytes(store.export(session.name))
+    return session, path
 
 
 def test_replay_prints_the_result_of_the_session(taught, capsys):
-    assert run(["replay", str(taught.path)]) == 0
+    assert run(["replay", str(taught[1])]) == 0
     out = capsys.readouterr()
     assert "tool point in the flange [mm]" in out.out and out.err == ""
 
 
 def test_replay_gives_the_json_of_solve(taught, tmp_path, capsys):
+    taught = taught[0]
     assert run(["replay", taught.name[:8], "--data", str(tmp_path), "--json"]) == 0
     found = json.loads(capsys.readouterr().out)
     assert found["format"] == "teachframe.tool/1"
@@ -30,8 +37,9 @@ def test_replay_gives_the_json_of_solve(taught, tmp_path, capsys):
 
 
 def test_a_torn_line_is_said_and_the_rest_replayed(taught, capsys):
-    taught.path.write_bytes(taught.path.read_bytes()[:-9])
-    assert run(["replay", str(taught.path.parent)]) == 0
+    path = taught[1]
+    path.write_bytes(path.read_bytes()[:-9])
+    assert run(["replay", str(path.parent)]) == 0
     out = capsys.readouterr()
     assert "no result" in out.out and "not finished" in out.err
 
@@ -39,7 +47,7 @@ def test_a_torn_line_is_said_and_the_rest_replayed(taught, capsys):
 def test_without_a_result_json_is_bad_input(tmp_path, capsys):
     session = Store(tmp_path).create(robot="ur10e")
     session.close()
-    assert run(["replay", str(session.path), "--json"]) == 2
+    assert run(["replay", session.name, "--data", str(tmp_path), "--json"]) == 2
     assert capsys.readouterr().err.count("\n") == 1
 
 

@@ -14,14 +14,16 @@ import tyro
 class Command:
     """Runs a recorded pendant session again without a browser and prints the same result.
 
-    SESSION is the path of a journal, the folder it lies in, or a session's name (or the beginning of it) in the data
-    folder.
+    SESSION is the path of an exported journal, the folder it lies in, or a session's name (or the beginning of it) in
+    the store (`teachframe sessions` lists them).
     """
 
     session: Annotated[str, tyro.conf.Positional, tyro.conf.arg(metavar="SESSION")]
     """Journal, folder or name."""
     data: Path | None = None
     """The data folder the pendant was started with; without it the user's own."""
+    database: str | None = None
+    """URL of the database the pendant was started with; without it the one in the data folder."""
     json: bool = False
     """The object teachframe.tool/1 instead of the page."""
 
@@ -29,13 +31,13 @@ class Command:
         from app.errors import InputError
         from app.session import replay
         from app.session.report import report_json, report_text
-        from app.session.store import find_journal
+        from app.session.store import find_recorded
 
-        path = find_journal(self.session, self.data)
-        state, torn = replay(path)
-        if torn:
+        recorded = find_recorded(self.session, self.data, self.database)
+        state = replay(recorded)
+        if recorded.torn:
             print(
-                f"teachframe replay: {path}: the last line was not finished (the pendant was stopped while "
+                f"teachframe replay: {recorded.source}: the last line was not finished (the pendant was stopped while "
                 "writing it) and is left out",
                 file=sys.stderr,
             )
@@ -45,7 +47,9 @@ class Command:
         line = report_json(state)
         if line is None:
             raise InputError(
-                "this session has no result", file=path, expected="a session with Calculate at its end"
+                "this session has no result",
+                file=recorded.source,
+                expected="a session with Calculate at its end",
             )
         print(line)
         return 0

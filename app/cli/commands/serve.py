@@ -19,6 +19,8 @@ class Command:
     """The arm new sessions begin with (`teachframe robots` lists them)."""
     data: Path | None = None
     """Folder where sessions are kept; without it the user's own."""
+    database: str | None = None
+    """Another database for sessions and training records, by URL: postgresql://USER@HOST/NAME, sqlite:///FILE."""
 
     def run(self) -> int:
         from app.errors import InputError
@@ -30,12 +32,12 @@ class Command:
             raise InputError(f"port {self.port}", column="--port", expected="0 to 65535")
         if self.robot is not None:
             load_robot(self.robot)
-        store = Store(self.data)
+        store = Store(self.data, self.database)
         server = PendantServer(store, host=self.host, port=self.port, robot=self.robot)
         if self.port not in (0, server.port):
             print(f"teachframe serve: port {self.port} is taken, using {server.port}", file=sys.stderr)
         print(f"Teachframe pendant: {server.address}", flush=True)
-        print(f"sessions are kept in {store.folder}; stop with Ctrl-C", file=sys.stderr, flush=True)
+        print(f"sessions are kept in {store.database.name}; stop with Ctrl-C", file=sys.stderr, flush=True)
         try:
             server.wait()
         except KeyboardInterrupt:

@@ -1,0 +1,129 @@
+"""Where sessions and training records are kept: SQLite in the data folder, or any other database by its URL.
+
+A row an action. SQLite writes ahead and waits for the disk at each commit (WAL, synchronous FULL), so a process killed
+at any moment leaves whole actions only, and all those that were confirmed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from sqlalchemy import Column, Connection, Float, Integer, MetaData, String, Table, Text, create_engine, event
+from sqlalchemy.engine import URL, make_url
+from sqlalchemy.exc import ArgumentError, IntegrityError, NoSuchModuleError, SQLAlchemyError
+
+from app.errors import InputError, StorageError, one_line
+
+FILE = "teachframe.sqlite"
+#: Drivers for URLs that name only the kind of database.
+_DRIVERS = {"postgresql": "postgresql+psycopg", "postgres": "postgresql+psycopg"}
+_BUSY = 30.0  # seconds another program may hold the file before an action fails
+
+METADATA = MetaData()
+SESSIONS = Table(
+    "sessions",
+    METADATA,
+    Column("name", String(32), primary_key=True),
+    Column("created", Float, nullable=False),
+)
+ACTIONS = Table(
+    "actions",
+    METADATA,
+    Column("session", String(32), primary_key=True),
+    Column("n", Integer, primary_key=True, autoincrement=False),
+    Column("t", Float, nullable=False),
+    Column("action", Text, nullable=False),
+    sqlite_with_rowid=False,
+)
+
+
+class Database:
+    """One database, from any thread.
+
+    Args:
+        url: as SQLAlchemy writes it, `sqlite:////path/file` or `postgresql://user@host/name`.
+
+    Raises:
+        InputError: not a URL, a driver that is not installed, or a database that does not answer.
+    """
+
+    def __init__(self, url: str | URL):
+        address = _address(url)
+        self.name = address.render_as_string(hide_password=True)
+        lite = address.get_backend_name() == "sqlite"
+        options = {"connect_args": {"timeout": _BUSY}} if lite else {"pool_pre_ping": True}
+        try:
+            self._engine = create_engine(address, **options)
+            if lite:
+                event.listen(self._engine, "connect", _durable)
+            METADATA.create_all(self._engine)
+        except ModuleNotFoundError as error:
+            raise InputError(
+                f"{self.name} needs the package {error.name}",
+                column="--database",
+                expected="an installed driver",
+            ) from None
+        except (ArgumentError, NoSuchModuleError) as error:
+            raise InputError(f"{self.name}: {_said(error)}", column="--database") from None
+        except SQLAlchemyError as error:
+            raise InputError(f"{self.name} cannot be used ({_said(error)})", column="--database") from None
+
+    @contextmanager
+    def begin(self) -> Iterator[Connection]:
+        """A transaction: all of it is kept when the block ends, or nothing.
+
+        Raises:
+            StorageError: the database did not take or give it.
+        """
+        try:
+            with self._engine.begin() as connection:
+                yield connection
+        except IntegrityError:
+            raise StorageError("another program writes to the same session") from None
+        except SQLAlchemyError as error:
+            raise StorageError(f"{self.name} did not keep this ({_said(error)})") from None
+
+    def close(self) -> None:
+        """Lets go of all connections."""
+        self._engine.dispose()
+
+
+def sqlite_url(path: Path) -> URL:
+    """The URL of a file."""
+    return URL.create("sqlite", database=str(path))
+
+
+def _address(url: str | URL) -> URL:
+    try:
+        address = make_url(url)
+    except ArgumentError:
+        raise InputError(
+            f"{str(url)!r} is no database",
+            column="--database",
+            expected="sqlite:///FILE or postgresql://USER@HOST/NAME",
+        ) from None
+    address = address.set(drivername=_DRIVERS.get(address.drivername, address.drivername))
+    if address.get_backend_name() == "sqlite":
+        if address.database in (None, "", ":memory:"):
+            raise InputError(
+                "a database in memory keeps nothing", column="--database", expected="sqlite:///FILE"
+            )
+        try:
+            Path(address.database).parent.mkdir(parents=True, exist_ok=True)
+        except OSError as error:
+            raise InputError(f"cannot be written ({error.strerror})", file=address.database) from None
+    return address
+
+
+def _durable(connection, _record) -> None:
+    cursor = connection.cursor()
+    for pragma in ("journal_mode=WAL", "synchronous=FULL"):
+        cursor.execute(f"PRAGMA {pragma}")
+    cursor.close()
+
+
+def _said(error: SQLAlchemyError) -> str:
+    """What the driver said, without SQLAlchemy's advice."""
+    return one_line(str(getattr(error, "orig", None) or error).partition("\n")[0], 200)
