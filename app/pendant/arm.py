@@ -6,7 +6,7 @@ one quaternion a joint afterwards.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import cache
 
 import numpy as np
@@ -19,6 +19,8 @@ from app.kinematics.shapes import Shape, rod
 from app.kinematics.solids import Solid, faces, robot_solids, solids, tool_shapes
 
 GHOST_OPACITY = 0.35
+#: Moves vertices (n, 3) [m] of a drawing.
+Bend = Callable[[np.ndarray], np.ndarray]
 Mesh = tuple[int, tuple[int, int, int], np.ndarray, np.ndarray]
 
 
@@ -99,11 +101,18 @@ class ArmView:
 
 
 def draw_shapes(
-    scene: viser.SceneApi, root: str, shapes: Sequence[Shape], *, ghost: bool = False
+    scene: viser.SceneApi,
+    root: str,
+    shapes: Sequence[Shape],
+    *,
+    ghost: bool = False,
+    bend: Bend | None = None,
 ) -> viser.FrameHandle:
-    """Draws shapes that stand still relative to the node `root`: a tool, a spike, a table."""
+    """Draws shapes that stand still relative to the node `root`: a tool, a spike, a table; bent, where wanted."""
     frame = scene.add_frame(root, show_axes=False)
     for index, (_, colour, vertices, triangles) in enumerate(_merged(solids(shapes))):
+        if bend is not None:
+            vertices = bend(vertices).astype(np.float32)
         _add(scene, f"{root}/solid{index}", colour, vertices, triangles, ghost)
     return frame
 

@@ -192,12 +192,12 @@ class Pendant:
             self.layout.message(*self.log[-1][1:])
 
     def solve(self, target: Pose, start: np.ndarray | None = None) -> IkResult:
-        """Joints that bring the drawn tool to `target`, T_base_tool."""
+        """Joints that bring the tool the controller reckons with to `target`, T_base_tool."""
         return solve_ik(
             self.model,
             target,
             self.q if start is None else start,
-            T_flange_tool=self.world.T_flange_tool_true,
+            T_flange_tool=self.world.T_flange_tool_hand,
         )
 
     def why(self, result: IkResult) -> str:

@@ -52,6 +52,6 @@ class Dragging:
             self.follow(target)
         finally:  # let go of in any case: the handle stands where the tool is
             self._told = ""
-            pendant.stage.handle.place(pendant.world.tip(pendant.q))
+            pendant.stage.handle.place(pendant.world.hand(pendant.q))
             pendant.settle()
             pendant.page.numbers()

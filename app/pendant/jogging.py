@@ -137,7 +137,7 @@ class Jogging:
         model, q = pendant.model, pendant.q.copy()
         wanted = q[jog.axis] + jog.sign * (length if model.joints[jog.axis].prismatic else angle)
         q[jog.axis] = np.clip(wanted, model.lower[jog.axis], model.upper[jog.axis])
-        moved = float(np.linalg.norm(pendant.world.tip(q).position - pendant.world.tip(pendant.q).position))
+        moved = float(np.linalg.norm(pendant.world.hand(q).position - pendant.world.hand(pendant.q).position))
         most = length if self.increment == "continuous" else np.inf
         if moved > most > 0.0:  # a long arm: the tip keeps to the manual speed
             q[jog.axis] = pendant.q[jog.axis] + (q[jog.axis] - pendant.q[jog.axis]) * most / moved
@@ -147,7 +147,7 @@ class Jogging:
 
     def _cartesian(self, jog: Jog, length: float, angle: float) -> tuple[np.ndarray, str]:
         pendant = self._pendant
-        tip = pendant.world.tip(pendant.q)
+        tip = pendant.world.hand(pendant.q)
         axes = tip.rotation if jog.frame == "tool" else np.eye(3)
         direction = jog.sign * axes[:, jog.axis % 3]
         if jog.axis < 3:

@@ -7,11 +7,12 @@ import itertools
 import numpy as np
 import viser
 
-from app.pendant.arm import ArmView, draw_shapes, pointer_shapes
+from app.pendant.arm import ArmView
 from app.pendant.scene.camera import MORE_VIEWS, VIEWS, look
 from app.pendant.scene.cell import draw_cell
 from app.pendant.scene.ground import lay_floor, light_up
 from app.pendant.scene.handle import Dragged, Handle
+from app.pendant.scene.held_tool import HeldTool
 from app.pendant.scene.marks import Marks
 from app.pendant.scene.residuals import Residuals
 from app.pendant.scene.tool_axes import ToolAxes
@@ -38,13 +39,10 @@ class Stage:
         self._world = world
         light_up(self._scene)
         self.floor(dark)
-        self.cell(world)
         # A name of its own each time: the page keeps the pose of a removed node for the next one of that name.
-        self.arm = ArmView(self._scene, world.robot, root=f"/arm{next(_NUMBERS)}")
-        if "tool" not in world.robot.description:
-            draw_shapes(
-                self._scene, f"{self.arm.flange_path}/pointer", pointer_shapes(world.T_flange_tool_true)
-            )
+        self.arm = ArmView(self._scene, world.robot, root=f"/arm{next(_NUMBERS)}", tool=False)
+        self._held: HeldTool | None = None
+        self.cell(world)
         reach = float(world.robot.description.get("reach_m", world.robot.reach))
         self.handle = Handle(self._scene, dragged, _HANDLE * reach)
         self.marks = Marks(self._scene)
@@ -60,9 +58,13 @@ class Stage:
         lay_floor(self._scene, dark=dark)
 
     def cell(self, world: World) -> None:
-        """Table and spike of another cell of the same arm."""
-        self._world = world
+        """Table, spike and tool of another cell of the same arm."""
+        before, self._world = self._world, world
         self._cell = draw_cell(self._scene, world)
+        if self._held is None or before.picture is not world.picture:
+            if self._held is not None:
+                self._held.remove()
+            self._held = HeldTool(self._scene, self.arm.flange_path, world)
 
     def make_room(self, away: bool) -> None:
         """Hides arm, handle and cell while something else is shown in their place; False brings them back."""
@@ -77,7 +79,9 @@ class Stage:
     def pose(self, q: np.ndarray, world: World) -> None:
         """The arm at q (n,), the handle at its tool."""
         self.arm.set(q)
-        self.handle.place(world.tip(q))
+        if self._held is not None:
+            self._held.pose(q, world)
+        self.handle.place(world.hand(q))
 
     def refresh(self, state: SessionState) -> None:
         """Marks, residuals and axes, where they changed."""

@@ -9,6 +9,7 @@ import numpy as np
 
 from app.geometry import Pose, exp_so3
 from app.kinematics import IkResult, RobotModel, solve_ik
+from app.simulation.faults import Fault, Load, true_flange
 from app.units import from_mm
 
 #: One-sigma error of a careful hand, per axis.
@@ -19,13 +20,27 @@ CONTACT_DISTANCE = from_mm(1.0)
 _SPIKES = ((0.55, 0.20), (0.50, 0.28), (0.62, 0.28), (0.45, 0.38), (0.62, 0.12), (0.55, 0.45))
 #: From the orientation at home [rad]: how the tip must be able to stand on it.
 _TILTS = ((0.0, 0.0, 0.0), (0.6, 0.0, 0.0), (-0.6, 0.0, 0.0), (0.0, 0.6, 0.0), (0.0, -0.6, 0.0))
+_LOOKS, _CLOSE = 8, from_mm(0.005)
 #: A torch for arms whose description names no tool.
 _PLAIN_TOOL = Pose.of(position=np.array([0.0, 0.0, from_mm(150.0)]))
 
 
 @dataclass(frozen=True, eq=False)
+class Picture:
+    """What is drawn of a cell whose truth is to be found: a little beside it, so that the drawing gives nothing away.
+
+    Args:
+        T_flange_tool: the tool point that is drawn.
+        p_base_spike: (3,) the spike that is drawn [m].
+    """
+
+    T_flange_tool: Pose
+    p_base_spike: np.ndarray
+
+
+@dataclass(frozen=True, eq=False)
 class World:
-    """What is true in the cell; a pendant only ever sees `shown_flange`.
+    """What is true in the cell; a pendant only ever sees `shown_flange` and `hand`.
 
     Args:
         robot: the arm.
@@ -34,6 +49,11 @@ class World:
         table_height: top of the table in base z [m].
         touch_sigma: one-sigma error of a touch, per axis [m].
         contact_distance: tip to spike below which they touch [m].
+        T_flange_tool_active: the tool the controller reckons with (handle, jogging); None takes the true one.
+        faults: what is wrong with the arm.
+        load: what it carries, where that matters.
+        row: number of the touch that comes next, from 1: some faults begin with a touch.
+        picture: what is drawn, where it must not be the truth.
     """
 
     robot: RobotModel
@@ -42,6 +62,11 @@ class World:
     table_height: float
     touch_sigma: float = TOUCH_SIGMA
     contact_distance: float = CONTACT_DISTANCE
+    T_flange_tool_active: Pose | None = None
+    faults: tuple[Fault, ...] = ()
+    load: Load | None = None
+    row: int = 1
+    picture: Picture | None = None
 
     def __post_init__(self):
         spike = np.array(self.p_base_spike, float)
@@ -54,7 +79,21 @@ class World:
 
     def true_flange(self, q: np.ndarray) -> Pose:
         """T_base_flange as it really is while the controller shows `q` (n,)."""
-        return self.robot.forward(q)
+        return true_flange(self.robot, q, self.faults, self.row, self.load)
+
+    @property
+    def T_flange_tool_hand(self) -> Pose:
+        """The tool the controller moves: what somebody drags and jogs about."""
+        return self.T_flange_tool_true if self.T_flange_tool_active is None else self.T_flange_tool_active
+
+    def hand(self, q: np.ndarray) -> Pose:
+        """T_base_tool as the controller reckons it; q (n,)."""
+        return self.shown_flange(q) @ self.T_flange_tool_hand
+
+    @property
+    def p_base_spike_drawn(self) -> np.ndarray:
+        """(3,) where the spike is drawn [m]."""
+        return self.p_base_spike if self.picture is None else self.picture.p_base_spike
 
     def tip(self, q: np.ndarray) -> Pose:
         """T_base_tool of the true tool; q (n,)."""
@@ -92,7 +131,17 @@ class World:
         return self._go(q, Pose.of(start.rotation, end))
 
     def _go(self, q: np.ndarray, target: Pose) -> IkResult:
-        return solve_ik(self.robot, target, q, T_flange_tool=self.T_flange_tool_true, max_steps=200)
+        """By the shown arm with the tool as it would have to be there; a faulty arm needs a second look or more."""
+        result = None
+        for _ in range(_LOOKS):
+            at = q if result is None else result.q
+            tool = self.shown_flange(at).inverse() @ self.tip(at)
+            result = solve_ik(self.robot, target, at, T_flange_tool=tool, max_steps=200)
+            missed = float(np.linalg.norm(self.tip(result.q).position - target.position))
+            if not self.faults or not result.reached or missed < _CLOSE:
+                break
+        assert result is not None
+        return result
 
 
 def default_world(robot: RobotModel) -> World:

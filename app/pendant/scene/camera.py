@@ -16,7 +16,7 @@ _FIELD = 0.75  # vertical field of view [rad]: narrow, so that straight things l
 
 def _sizes(world: World) -> tuple[float, np.ndarray, np.ndarray]:
     reach = float(world.robot.description.get("reach_m", world.robot.reach))
-    ahead = np.array([*world.p_base_spike[:2], 0.0])
+    ahead = np.array([*world.p_base_spike_drawn[:2], 0.0])
     ahead = ahead / max(float(np.linalg.norm(ahead)), 1e-9)
     return reach, ahead, np.array([-ahead[1], ahead[0], 0.0])
 
@@ -31,26 +31,26 @@ def whole(world: World) -> View:
 def side(world: World) -> View:
     """Square from the side, at the height of the spike."""
     reach, _, left = _sizes(world)
-    return world.p_base_spike - 0.42 * reach * left, world.p_base_spike
+    return world.p_base_spike_drawn - 0.42 * reach * left, world.p_base_spike_drawn
 
 
 def front(world: World) -> View:
     """Square to the side view, from beyond the spike."""
     reach, ahead, _ = _sizes(world)
-    return world.p_base_spike + 0.42 * reach * ahead, world.p_base_spike
+    return world.p_base_spike_drawn + 0.42 * reach * ahead, world.p_base_spike_drawn
 
 
 def close(world: World) -> View:
     """The tip and the spike from near by."""
     reach, ahead, left = _sizes(world)
     offset = 0.20 * reach * (0.75 * ahead - left + np.array([0.0, 0.0, 0.45]))
-    return world.p_base_spike + offset, world.p_base_spike
+    return world.p_base_spike_drawn + offset, world.p_base_spike_drawn
 
 
 def result(world: World) -> View:
     """Spike, torch and recorded flanges: what a result is about."""
     reach, ahead, left = _sizes(world)
-    centre = world.p_base_spike - 0.27 * reach * ahead
+    centre = world.p_base_spike_drawn - 0.27 * reach * ahead
     centre[2] = 0.5 * (centre[2] + 0.5 * reach)  # a low spike has the arm above it, a high one beside it
     return centre + 1.3 * reach * (0.38 * ahead - 0.95 * left + np.array([0.0, 0.0, 0.32])), centre
 

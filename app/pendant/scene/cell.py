@@ -20,7 +20,7 @@ _EDGE = from_mm(620.0)
 
 def cell_shapes(world: World) -> tuple[Shape, ...]:
     """Table with four legs, and a spike that stands on it."""
-    spike, top = world.p_base_spike, world.table_height
+    spike, top = world.p_base_spike_drawn, world.table_height
     x, y = float(spike[0]), float(spike[1])
     foot = np.array([x, y, top])
     shapes = [

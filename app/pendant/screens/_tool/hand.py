@@ -10,9 +10,8 @@ from app.calibration.captures import Capture, Step, of_role
 from app.calibration.next_touch import propose
 from app.calibration.verify import verify
 from app.kinematics import CollisionWorld, solve_ik
-from app.kinematics.solids import tool_shapes
-from app.pendant.arm import pointer_shapes
 from app.pendant.scene.cell import cell_shapes
+from app.pendant.scene.held_tool import held_shapes
 from app.simulation.world import default_tool
 from app.units import from_mm, mm
 
@@ -59,7 +58,7 @@ def go_to_proposal(pendant: Pendant) -> None:
     proposal = propose(
         rotations,
         tool=default_tool(pendant.model).position,
-        spike=pendant.world.p_base_spike,
+        spike=pendant.world.p_base_spike_drawn,
         touches=state.touches,
         reference=None if len(rotations) else pendant.model.forward(pendant.q).rotation,
         robot=pendant.model,
@@ -105,8 +104,7 @@ def check_turn(pendant: Pendant) -> None:
 def collisions(pendant: Pendant) -> CollisionWorld:
     """The arm, its tool and the cell, for asking what would be hit."""
     robot = pendant.model
-    shapes = tool_shapes(robot) if "tool" in robot.description else pointer_shapes(default_tool(robot))
-    return CollisionWorld(robot, tool_shapes=shapes, obstacles=cell_shapes(pendant.world))
+    return CollisionWorld(robot, tool_shapes=held_shapes(robot), obstacles=cell_shapes(pendant.world))
 
 
 def joints_of(pendant: Pendant, capture: Capture) -> np.ndarray | None:

@@ -1,0 +1,94 @@
+"""What is wrong with an arm in a cell: effects of the diagnosis' own library, applied exactly."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from app import catalog
+from app.diagnosis.static.cell import nominal_cell, pose
+from app.diagnosis.static.effect import Place, StaticEffect
+from app.diagnosis.static.situation import Situation, situation_for
+from app.errors import UnknownNameError
+from app.geometry import Pose
+from app.kinematics import RobotModel
+
+EFFECTS = "app.diagnosis.effects.static"
+
+
+@dataclass(frozen=True)
+class Fault:
+    """One effect at one place.
+
+    Args:
+        effect: key in the library.
+        where: as the effect takes it (`joint`, `link`, `body`, …; `from_row` is the touch from which on it is there).
+        values: by the effect's own names of its parameters, SI.
+        fixed: what chooses the law's form.
+
+    Raises:
+        UnknownNameError: no effect of this key.
+    """
+
+    effect: str
+    where: Mapping[str, Any] = field(default_factory=dict)
+    values: Mapping[str, float] = field(default_factory=dict)
+    fixed: Mapping[str, float] = field(default_factory=dict)
+
+    @cached_property
+    def law(self) -> StaticEffect:
+        return catalog.member(EFFECTS, "EFFECT", self.effect, what="effect")
+
+    def checked(self, robot: RobotModel) -> Fault:
+        """Itself, where the effect takes these parameters on this arm.
+
+        Raises:
+            UnknownNameError: a parameter the effect does not have; lists those it has.
+        """
+        names = [q.name for q in self.law.quantities(self._situation(robot), self.place)]
+        for name in self.values:
+            if name not in names:
+                raise UnknownNameError(name, available=names, what=f"parameter of {self.effect}")
+        return self
+
+    @property
+    def place(self) -> Place:
+        return Place(dict(self.where), dict(self.fixed))
+
+    def _situation(self, robot: RobotModel) -> Situation:
+        return situation_for(robot, robot.home[None])
+
+
+@dataclass(frozen=True)
+class Load:
+    """What hangs on the flange: mass [kg] and its centre (3,) in the flange [m]."""
+
+    mass: float
+    centre: tuple[float, float, float] = (0.0, 0.0, 0.0)
+
+
+def true_flange(
+    robot: RobotModel, q: np.ndarray, faults: tuple[Fault, ...], row: int, load: Load | None
+) -> Pose:
+    """T_base_flange as it really is while the controller shows q; what happened to the tool in its seat counts too.
+
+    Args:
+        q: (n,) [rad or m].
+        row: number of the touch that is being made, from 1.
+        load: what the arm carries.
+    """
+    if not faults:
+        return robot.forward(q)
+    payload = {} if load is None else {"payload": np.array([load.mass]), "payload_com": np.array(load.centre)}
+    situation = situation_for(robot, np.asarray(q, float)[None], order=np.array([row]), **payload)
+    cell = nominal_cell(situation)
+    for fault in faults:
+        names = [quantity.name for quantity in fault.law.quantities(situation, fault.place)]
+        values = np.array([fault.values.get(name, 0.0) for name in names])
+        cell = fault.law.apply(cell, situation, fault.place, values)
+    posed = pose(situation, cell, np.zeros((1, 3)))
+    return Pose.of(posed.hand[0], posed.points[0, 0])
