@@ -3,6 +3,9 @@
 server.py     the server: who connects gets a session, handed back after a reload
 hub.py        which session belongs to which browser
 client.py     Pendant: one browser's view of one session
+inputs.py     what its widgets start
+moving.py     where its arm stands, and how it gets elsewhere
+aids.py       what it shows beyond what a real cell would
 worker.py     one thread a session; callbacks only enqueue
 motion.py     how the arm gets from pose to pose, tick by tick
 layout.py     where things stand on the page: status line, message line, panels

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import logging
-import threading
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -14,27 +13,25 @@ import viser
 from app.errors import TeachframeError, one_line
 from app.geometry import Pose
 from app.kinematics import IkResult, RobotModel, solve_ik
-from app.pendant import motion
+from app.pendant.aids import Aids
 from app.pendant.dragging import Dragging
 from app.pendant.jogging import Jogging
 from app.pendant.layout import Layout
 from app.pendant.loaded import with_touched_point
+from app.pendant.moving import Moving
 from app.pendant.page import Page
 from app.pendant.stage import Stage
 from app.pendant.texts import FALLBACK, has_text, text
 from app.pendant.worker import Job, Worker
 from app.session import AnyAction, Session, SessionState
-from app.session.actions import Move
 from app.session.state import as_tuple, robot_named
 from app.simulation.world import World
 
 _LOG = logging.getLogger(__name__)
-_SETTLED = 0.5  # seconds without motion after which where the arm stands is written down
-_SHOWN = 0.1  # seconds between two updates of numbers while the arm moves
 _LOG_LENGTH = 200
 
 
-class Pendant:
+class Pendant(Moving):
     """What a browser sees of a session.
 
     Args:
@@ -46,10 +43,10 @@ class Pendant:
     def __init__(self, client: viser.ClientHandle, session: Session, world_of: Callable[[RobotModel], World]):
         self.client, self.session, self._world_of = client, session, world_of
         self.language, self.vocabulary, self.dark, self.convention = FALLBACK, "", False, "ZYX"
+        self.aids = Aids()
         self.log: list[tuple[float, str, str]] = []
         self.open = True
         self.dragging, self.jogging = Dragging(self), Jogging(self)
-        self._numbers_at = 0.0
         self.q = np.array(session.state.q)
         self._source: object = None
         self.world = self._own_world()
@@ -68,47 +65,11 @@ class Pendant:
         """A text in the operator's language."""
         return text(key, self.language, **fields)
 
-    def post(self, job: Job) -> None:
-        """Puts a job into the worker's queue, from any thread."""
-        self.worker.post(job)
-
-    def clicked(self, button: Any, job: Job) -> None:
-        """Runs `job` on the worker for each click."""
-
-        @button.on_click
-        async def _(event: viser.GuiEvent) -> None:
-            self.worker.post(job)
-
-    def chosen(self, group: Any, job: Callable[[str], object]) -> None:
-        """Runs `job` on the worker with the button of the group that was clicked."""
-
-        @group.on_click
-        async def _(event: viser.GuiEvent) -> None:
-            value = event.target.value
-            self.worker.post(lambda: job(value))
-
-    def changed(self, widget: Any, slot: str, job: Callable[[Any], object]) -> None:
-        """Runs `job` on the worker with the newest value somebody entered; what the program sets does not count."""
-
-        @widget.on_update
-        async def _(event: viser.GuiEvent) -> None:
-            if event.client is None:
-                return
-            value = event.target.value
-            self.worker.latest(slot, lambda: job(value))
-
-    def background(self, job: Callable[[], Any], done: Callable[[Any], None]) -> None:
-        """Long work on a thread of its own; `done` gets its result on the worker."""
-
-        def run() -> None:
-            try:
-                result = job()
-            except Exception as error:
-                self.post(lambda error=error: self._tell(error))
-            else:
-                self.post(lambda: done(result))
-
-        threading.Thread(target=run, name="pendant-background", daemon=True).start()
+    def allow(self, aids: Aids) -> None:
+        """Gives these aids and no others; the page is made anew (worker thread only)."""
+        if aids != self.aids:
+            self.aids = aids
+            self.rebuild()
 
     def say(self, level: str, words: str) -> None:
         """The message line, and the log."""
@@ -129,40 +90,7 @@ class Pendant:
             self.refresh()
         return state
 
-    def go(self, q: np.ndarray, then: Job | None = None) -> None:
-        """The arm moves to q (n,), visibly; `then` is done at the end."""
-        self.tour([np.asarray(q, float)], lambda number: then() if then and number < 0 else None, 0.0)
-
-    def tour(self, stops: list[np.ndarray], arrived: Callable[[int], object], rest: float = 0.5) -> None:
-        """The arm goes through poses; `arrived` hears the number of each, and once more -1 at the end."""
-        self.jogging.must_not_be_stopped()
-        self.worker.animate("move", self._travel(stops, arrived, rest))
-        self.page.numbers()
-
-    def place(self, q: np.ndarray) -> None:
-        """The arm stands at q (n,) at once, within its limits."""
-        self.jogging.must_not_be_stopped()
-        self.worker.halt("move")
-        self.show(np.clip(q, self.model.lower, self.model.upper))
-        self.worker.animate("settle", self._settle_later())
-
     # What is shown ---------------------------------------------------------------------------------------
-
-    def show(self, q: np.ndarray) -> None:
-        """Draws the arm at q (n,); the numbers follow a little slower."""
-        self.q = np.asarray(q, float)
-        self.stage.pose(self.q, self.world)
-        now = time.monotonic()
-        if now - self._numbers_at >= _SHOWN:
-            self._numbers_at = now
-            self.worker.latest("numbers", self.page.numbers)  # after the scene, not before it
-        else:
-            self.worker.animate("numbers", self._numbers_later())
-
-    def settle(self) -> None:
-        """Writes down where the arm stands, where that is not yet done."""
-        if as_tuple(self.q) != self.session.state.q:
-            self.session.do(Move(as_tuple(self.q)))
 
     def refresh(self) -> None:
         """Shows the session's state everywhere."""
@@ -237,7 +165,9 @@ class Pendant:
 
     def _build(self) -> None:
         self.layout = Layout(self.client.gui, dark=self.dark)
-        self.stage = Stage(self.client, self.world, self.dragging.event, dark=self.dark)
+        self.stage = Stage(
+            self.client, self.world, self.dragging.event, dark=self.dark, handle=self.aids.handle
+        )
         self.page = Page(self)
         self.show(self.q)
         self.refresh()
@@ -275,23 +205,3 @@ class Pendant:
             words = one_line(f"{type(error).__name__}: {error}", 160)
             self.say("error", self.t("message.fault", what=words))
         self.page.refresh(self.session.state)  # what was entered goes back to what is so
-
-    def _travel(
-        self, stops: list[np.ndarray], arrived: Callable[[int], object], rest: float
-    ) -> Iterator[None]:
-        for number, stop in enumerate(stops):
-            yield from motion.move(self.q.copy(), stop, self.show)
-            self.page.numbers()
-            arrived(number)
-            yield from motion.pause(rest)
-        self.settle()
-        self.post(lambda: arrived(-1))  # as a job of its own: by then the motion is over
-
-    def _settle_later(self) -> Iterator[None]:
-        yield from motion.pause(_SETTLED)
-        self.settle()
-
-    def _numbers_later(self) -> Iterator[None]:
-        yield from motion.pause(_SHOWN)
-        self._numbers_at = time.monotonic()
-        self.page.numbers()

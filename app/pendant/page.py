@@ -71,7 +71,12 @@ class Page:
         state = pendant.session.state
         distance = pendant.world.distance(pendant.q)
         touching = distance <= pendant.world.contact_distance
-        far = t("status.touching") if touching else t("status.distance", mm=f"{mm(distance):.1f}")
+        if touching:
+            far = t("status.touching")
+        else:
+            far = (
+                t("status.distance", mm=f"{mm(distance):.1f}") if pendant.aids.distance else t("status.free")
+            )
         moving = pendant.worker.running("move") or pendant.worker.running("jog")
         how = "stopped" if pendant.jogging.stopped else "moving" if moving else "standing"
         colour = {"stopped": "red", "moving": "yellow", "standing": "green"}[how]

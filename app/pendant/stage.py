@@ -32,9 +32,12 @@ class Stage:
         world: the cell.
         dragged: what a drag at the handle calls, on the event loop.
         dark: dark page or light.
+        handle: whether there is a drag handle at all.
     """
 
-    def __init__(self, client: viser.ClientHandle, world: World, dragged: Dragged, *, dark: bool):
+    def __init__(
+        self, client: viser.ClientHandle, world: World, dragged: Dragged, *, dark: bool, handle: bool = True
+    ):
         self._client, self._scene = client, client.scene
         self._world = world
         light_up(self._scene)
@@ -48,7 +51,8 @@ class Stage:
         self.marks = Marks(self._scene)
         self.residuals = Residuals(self._scene)
         self.axes = ToolAxes(self._scene, self.arm.flange_path)
-        self.show_handle = self.show_marks = self.show_residuals = True
+        self.show_handle, self.show_marks, self.show_residuals = handle, True, True
+        self.handle.visible = handle
         self._drawn: tuple[object, ...] = ()
         self._away = False
         self.view("whole")

@@ -32,7 +32,8 @@ class _View:
         pendant.changed(language, "language", self._speak)
         pendant.changed(gui.add_checkbox(t("cell.dark"), pendant.dark), "dark", self._dark)
         stage = pendant.stage
-        pendant.changed(gui.add_checkbox(t("cell.handle"), stage.show_handle), "handle", self._handle)
+        if pendant.aids.handle:
+            pendant.changed(gui.add_checkbox(t("cell.handle"), stage.show_handle), "handle", self._handle)
         pendant.changed(gui.add_checkbox(t("cell.marks"), stage.show_marks), "marks", self._marks)
         pendant.changed(
             gui.add_checkbox(t("cell.residuals"), stage.show_residuals), "residuals", self._residuals

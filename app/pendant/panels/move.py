@@ -9,7 +9,7 @@ import numpy as np
 
 from app.geometry import CONVENTIONS
 from app.pendant import html
-from app.pendant.scene.camera import VIEWS
+from app.pendant.scene.camera import CLOSE_UPS, VIEWS
 from app.session import SessionState
 from app.units import deg, from_deg, from_mm, mm
 
@@ -42,10 +42,11 @@ class _View:
             initial_value=CONVENTIONS[pendant.convention].title,
         )
         pendant.changed(self._angles, "angles", self._convention)
-        handles = {t(f"move.{key}"): parts for key, parts in _HANDLES.items()}
-        group = gui.add_button_group(t("move.handle"), tuple(handles))
-        pendant.chosen(group, lambda label: self._handle(*handles[label]))
-        views = {t(f"move.view_{key}"): key for key in VIEWS}
+        if pendant.aids.handle:
+            handles = {t(f"move.{key}"): parts for key, parts in _HANDLES.items()}
+            group = gui.add_button_group(t("move.handle"), tuple(handles))
+            pendant.chosen(group, lambda label: self._handle(*handles[label]))
+        views = {t(f"move.view_{key}"): key for key in VIEWS if pendant.aids.closeup or key not in CLOSE_UPS}
         group = gui.add_button_group(t("move.view"), tuple(views))
         pendant.chosen(group, lambda label: pendant.stage.view(views[label]))
 

@@ -56,6 +56,8 @@ def result(world: World) -> View:
 
 
 VIEWS: dict[str, Callable[[World], View]] = {"whole": whole, "side": side, "front": front, "close": close}
+#: Those that go near the tip.
+CLOSE_UPS = ("side", "front", "close")
 #: Views the program takes by itself.
 MORE_VIEWS = {"result": result}
 

@@ -113,7 +113,8 @@ class _View:
         pendant.do(action(step.key, as_tuple(pendant.q)))
         far = pendant.world.distance(pendant.q)
         if "touch" in step.roles and far > pendant.world.contact_distance:
-            pendant.say("warning", pendant.t("message.recorded_far", title=step.title, mm=f"{mm(far):.1f}"))
+            key = "message.recorded_far" if pendant.aids.distance else "message.recorded_off"
+            pendant.say("warning", pendant.t(key, title=step.title, mm=f"{mm(far):.1f}"))
         else:
             pendant.say("good", pendant.t("message.recorded", title=step.title))
 
@@ -199,7 +200,7 @@ class _View:
         step = state.missing[0] if state.missing else None
         touched = step is not None and bool(TOUCHED & set(step.roles))
         self._assist.visible = not done and (touched or (step is not None and step.role in AXES))
-        self._propose.visible = not done and touched
+        self._propose.visible = not done and touched and self.pendant.aids.next_touch
         self._name.visible = self._decide.visible = not taken
         self._again.visible = taken
         self._calculate.disabled = step is not None

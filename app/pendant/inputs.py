@@ -1,0 +1,62 @@
+"""What a page's widgets start: every one only puts a job into the session's worker."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable
+from typing import Any
+
+import viser
+
+from app.pendant.worker import Job, Worker
+
+
+class Inputs:
+    """The half of a pendant that its widgets speak to."""
+
+    worker: Worker
+
+    def post(self, job: Job) -> None:
+        """Puts a job into the worker's queue, from any thread."""
+        self.worker.post(job)
+
+    def clicked(self, button: Any, job: Job) -> None:
+        """Runs `job` on the worker for each click."""
+
+        @button.on_click
+        async def _(event: viser.GuiEvent) -> None:
+            self.worker.post(job)
+
+    def chosen(self, group: Any, job: Callable[[str], object]) -> None:
+        """Runs `job` on the worker with the button of the group that was clicked."""
+
+        @group.on_click
+        async def _(event: viser.GuiEvent) -> None:
+            value = event.target.value
+            self.worker.post(lambda: job(value))
+
+    def changed(self, widget: Any, slot: str, job: Callable[[Any], object]) -> None:
+        """Runs `job` on the worker with the newest value somebody entered; what the program sets does not count."""
+
+        @widget.on_update
+        async def _(event: viser.GuiEvent) -> None:
+            if event.client is None:
+                return
+            value = event.target.value
+            self.worker.latest(slot, lambda: job(value))
+
+    def background(self, job: Callable[[], Any], done: Callable[[Any], None]) -> None:
+        """Long work on a thread of its own; `done` gets its result on the worker."""
+
+        def run() -> None:
+            try:
+                result = job()
+            except Exception as error:
+                self.post(lambda error=error: self._tell(error))
+            else:
+                self.post(lambda: done(result))
+
+        threading.Thread(target=run, name="pendant-background", daemon=True).start()
+
+    def _tell(self, error: Exception) -> None:
+        raise NotImplementedError

@@ -1,0 +1,26 @@
+"""A pendant behind a browser without a screen."""
+
+import pytest
+
+from app.pendant.server import PendantServer
+from app.session import Store
+from benchmarks._browser import Browser
+from tests.pendant.test_server import until
+
+
+@pytest.fixture
+def open_pendant(tmp_path):
+    """Opens a pendant: open_pendant(robot=…, world_of=…)."""
+    opened = []
+
+    def start(**arguments):
+        server = PendantServer(Store(tmp_path), port=0, **{"robot": "ur10e", **arguments})
+        opened.append((server, Browser(server.port)))
+        until(lambda: server.pendants and hasattr(server.pendants[0], "page"), "the page")
+        assert server.pendants[0].worker.idle()
+        return server.pendants[0]
+
+    yield start
+    for server, browser in opened:
+        browser.close()
+        server.stop()
