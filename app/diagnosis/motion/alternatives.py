@@ -23,11 +23,13 @@ def alternatives_of(study: Study, index: int) -> tuple[Alternative, ...]:
         return ()
     others = [t.group for i, t in enumerate(study.fit.terms) if i != index]
     solution = solve(study.system, others, study.prior)
-    board = study.search.board(solution, others)
+    board = study.search.board(solution, others, null=False)
     own_gain, own_size = float(study.judgement.gains[index]), term.group.size
     penalty = np.log(max(study.system.rows, 3))
     out: dict[tuple, Alternative] = {}
-    for candidate, gain in zip(board.candidates, board.gain, strict=True):
+    deltas = own_gain - board.gain + penalty * (board.sizes - own_size)
+    for at in np.flatnonzero(deltas < CLOSE):
+        candidate, delta = board[at], float(deltas[at])
         law, where = candidate.group.law, dict(candidate.group.where)
         assert law is not None
         same = law.key == term.group.law.key and where.get("joint") == term.group.where.get("joint")  # type: ignore[union-attr]
@@ -38,10 +40,9 @@ def alternatives_of(study: Study, index: int) -> tuple[Alternative, ...]:
             where["from_s"] = round(float(t[edges[candidate.window[0]]]), 3)
             if law.key != "payload_change":
                 where["to_s"] = round(float(t[edges[candidate.window[1]] - 1]), 3)
-        delta = own_gain - float(gain) + penalty * (candidate.size - own_size)
         key = (law.key, where.get("joint"), where.get("source_joint"), where.get("driver"))
-        if delta < CLOSE and (key not in out or out[key].delta_bic > delta):
-            out[key] = Alternative(law.key, where, float(delta))
+        if key not in out or out[key].delta_bic > delta:
+            out[key] = Alternative(law.key, where, delta)
     found = sorted(out.values(), key=lambda a: a.delta_bic)[:MOST]
     return (*_aliases(study, index), *found)
 

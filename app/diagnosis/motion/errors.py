@@ -7,7 +7,7 @@ from types import MappingProxyType
 
 import numpy as np
 
-from app.diagnosis.motion.heldout import FOLDS, folds
+from app.diagnosis.motion.heldout import FOLDS, folds, solved
 from app.diagnosis.motion.system import Group, System
 from app.kinematics.dynamics import PER_LINK
 
@@ -34,7 +34,8 @@ class ErrorTable:
         self.system, self.prior, self.selected, self.response = system, prior, selected, response
         self.all = system.normal(selected)[:2]
         every = folds(system.block_count)[:FOLDS]
-        self.folds = [(blocks, *system.normal(selected, blocks)[:2]) for blocks in every]
+        A, g, _ = system.normal_folds(selected, every)
+        self.folds = list(zip(every, A, g, strict=True))
         self.raw = raw_columns(system, selected)
         _, self.positions, _ = system.layout(selected)
         self._put_back(done)
@@ -65,15 +66,8 @@ class ErrorTable:
         return np.concatenate(index)
 
     def _theta(self, A: np.ndarray, g: np.ndarray, keep: np.ndarray) -> np.ndarray:
-        part = A[np.ix_(keep, keep)].copy()
-        i = len(self.prior)
-        part[:i, :i] += self.prior
-        scale = np.sqrt(np.diag(part))
-        scale[scale <= 1e-9 * scale.max()] = np.inf  # what this log does not excite stays zero
-        part = part / scale / scale[:, None]
-        part[np.diag_indices_from(part)] += np.where(np.isinf(scale), 1.0, 1e-11)
         out = np.zeros(len(g))
-        out[keep] = np.linalg.solve(part, g[keep] / scale) / scale
+        out[keep] = solved(A[keep[:, None], keep], g[keep], self.prior)
         return out
 
     def residual(self, terms: list[int]) -> np.ndarray:
@@ -98,7 +92,7 @@ class ErrorTable:
         total, count = np.zeros(usable.shape[1]), np.zeros(usable.shape[1])
         for blocks, A, g in self.folds:
             theta = self._theta(self.all[0] - A, self.all[1] - g, keep)
-            rows = np.isin(blocks_of, blocks)
+            rows = blocks[blocks_of]
             for j, (columns, pos) in enumerate(zip(self.raw, self.positions, strict=True)):
                 good = rows & usable[:, j]
                 left = self.response[good, j] - columns[good] @ theta[pos]

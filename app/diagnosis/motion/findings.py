@@ -47,7 +47,6 @@ def build(study: Study, robot: RobotModel, file: str) -> Diagnosis:
         noise = Noise(float(np.sqrt(np.mean(log.stated_noise**2))), "Nm", "stated")
     else:
         noise = Noise(float(spread * np.sqrt(samples.window)), "Nm", "residual")
-    centre = samples.index.reshape(-1, samples.window)[:, samples.window // 2]
     state = samples.state
     n = robot.joint_count
     drivers = {"time [s]": samples.t}
@@ -60,7 +59,7 @@ def build(study: Study, robot: RobotModel, file: str) -> Diagnosis:
             drivers[f"temperature {j + 1} [degC]"] = samples.pool(state.temperature[:, j])
     measured = samples.y + samples.pool(state.torque)
     evidence = Evidence(
-        rows=log.rows[centre], measured=measured, before=study.before_residual, after=after_residual,
+        rows=log.rows[samples.centre], measured=measured, before=study.before_residual, after=after_residual,
         components=tuple(f"joint {j + 1}" for j in range(n)), unit="Nm", q=samples.pool(state.q),
         drivers=drivers, kept=np.asarray(usable.any(axis=1)),
     )  # fmt: skip
@@ -139,7 +138,7 @@ def _notes(study: Study) -> tuple[str, ...]:
     notes = [*log.notes, *study.notes, samples.smoothing.sentence()]
     if samples.thinned:
         notes.append(
-            f"{len(samples.index)} of {len(log.t)} samples were used, in windows of {samples.window} "
+            f"{len(samples.t) * samples.window} of {len(log.t)} samples were used, in windows of {samples.window} "
             "taken evenly over the log"
         )
     elif samples.window > 1:

@@ -59,12 +59,12 @@ def judge(search: Search, fit: ExactFit, stated: np.ndarray | None, done: dict[i
     curves = [g for g in search.system.groups if g.law is None]
     board = score_all(search.system, fit.solution, curves, {}, [])
     null = null_scores(board, search.signs)
-    bar = max(float(np.quantile(null, 1 - LEVEL)), np.log10(len(board.candidates) / LEVEL))
+    bar = max(float(np.quantile(null, 1 - LEVEL)), np.log10(len(board) / LEVEL))
     best = int(np.argmax(board.score))
     p_value = float((1 + np.sum(null >= board.score[best])) / (1 + len(null)))
-    if board.score[best] < np.log10(len(board.candidates) / LEVEL):
+    if board.score[best] < np.log10(len(board) / LEVEL):
         p_value = max(p_value, 0.05)
-    where = dict(board.candidates[best].group.where)
+    where = dict(board[best].group.where)
     remains = remains_of(search.system, fit.solution, stated)
     reasons = list(remains.sentences())
     worst = remains.worst()
@@ -151,7 +151,7 @@ def _place(group: Group) -> str:
 def _beyond(board: Board, group: Group, bar: float) -> tuple[float, str]:
     """The largest significant gain of a free curve where this law acts."""
     best, driver = 0.0, ""
-    for candidate, gain, score in zip(board.candidates, board.gain, board.score, strict=True):
+    for candidate, gain, score in zip(board, board.gain, board.score, strict=True):
         if score <= bar or (group.joint is not None and candidate.group.joint != group.joint):
             continue
         spare = gain - candidate.size

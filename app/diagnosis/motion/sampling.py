@@ -1,7 +1,9 @@
 """From a log to the samples a fit works on: smoothed motion, the description's columns, windows, blocks.
 
-A long log is pooled: torque and every column are averaged over short windows, which keeps what is linear
-exactly linear; beyond LARGEST_USED samples the windows are taken evenly over the whole log.
+A long log is pooled: torque is averaged over short windows, and so is every column, which keeps what is linear
+exactly linear. The mean of a column over a window is taken from two points of it (Gauss's rule on its samples,
+exact for cubics): the motion is smooth, the torque's noise is not. Where the windows would be too many, they
+are taken evenly over the whole log.
 """
 
 from __future__ import annotations
@@ -23,39 +25,43 @@ from app.kinematics.dynamics import (
 )
 from app.kinematics.robot import GRAVITY
 
-LARGEST_POOLED = 20_000  # windows the search works on
-LARGEST_USED = 100_000  # samples it looks into
+ENOUGH = 2_000  # windows wanted before samples are averaged at all
+LARGEST_POOLED = 10_000  # windows the search works on
+RESOLVED = 0.02  # s: no window is longer; speed and acceleration are smoothed over more than that anyway
 CHUNK = 10_000
+MOST_BLOCKS = 48  # events of a twentieth of the log fill a block or two; more only makes their scan dearer
 SLOW = 0.03  # share of a joint's usual speed below which the direction of its friction is open
 SLOWEST = 0.008  # rad/s or m/s, likewise
 
 
 @dataclass(frozen=True, eq=False)
 class Samples:
-    """What a fit works on: M windows of w samples.
+    """What a fit works on: M windows of w samples, each seen at c points.
 
     Args:
-        state: the M w samples.
+        state: the M c points.
         window: w.
+        points: c, 1 or 2.
         t: (M,) [s] from the start of the log.
         y: (M, n) torque beyond the description [Nm], averaged over each window.
         regressor: (M, 10 n, n), d torque / d inertial parameters.
         usable: (M, n) False where a joint's friction has no direction, or its torque is not measured.
         blocks: (M,) index of the block of time, rising.
         runs: slices of windows without a gap.
-        index: (M w,) which of the log's samples.
+        centre: (M,) the log's sample in the middle of each window.
         step: time between windows [s].
     """
 
     state: State
     window: int
+    points: int
     t: np.ndarray
     y: np.ndarray
     regressor: np.ndarray
     usable: np.ndarray
     blocks: np.ndarray
     runs: list[slice]
-    index: np.ndarray
+    centre: np.ndarray
     step: float
     smoothing: Smoothing
     thinned: bool
@@ -65,10 +71,8 @@ class Samples:
         return int(self.blocks[-1]) + 1
 
     def pool(self, values: np.ndarray) -> np.ndarray:
-        """Averages per-sample values over each window; (M w, ...) -> (M, ...)."""
-        if self.window == 1:
-            return values
-        return values.reshape(-1, self.window, *values.shape[1:]).mean(axis=1)
+        """Means over each window; (M c, ...) -> (M, ...)."""
+        return _pooled(values, self.points)
 
 
 #: Smoothed position, speed and acceleration of every sample, and how they were made.
@@ -99,103 +103,122 @@ def take_samples(
         shift: the torque is taken to be this much late [s]: it is compared with the motion that much earlier.
     """
     q, qd, qdd, smoothing = motion
-    index, window, runs, thinned = _windows(log)
-    t = log.t[index] - log.t[0]
+    first, window, runs, thinned = _windows(log)
+    points = 1 if window == 1 else 2
+    at = _points(first, window)
+    t = _between(log.t, at) - log.t[0]
     if shift:
-        q, qd, qdd = (_earlier(log, values, index, shift) for values in (q, qd, qdd))
+        q, qd, qdd = (_at(log, values, t - shift) for values in (q, qd, qdd))
     else:
-        q, qd, qdd = q[index], qd[index], qdd[index]
-    n, count = robot.joint_count, len(index) // window
-    speed = np.quantile(np.abs(qd), 0.9, axis=0)
+        q, qd, qdd = (_between(values, at) for values in (q, qd, qdd))
+    n, count = robot.joint_count, len(first)
     nominal, to_last = inertial_parameters(robot), flange_to_last_link(robot)
     regressor = np.empty((count, 10 * n, n))
-    rigid = np.empty((len(index), n))
-    gravity_columns, force_columns = np.empty((len(index), n, 3)), np.empty((len(index), n, 3))
-    payload = np.empty((len(index), n, 10))
-    size = CHUNK // window * window
-    for start in range(0, len(index), size):
-        progress(0.05 + 0.2 * start / len(index), "rigid-body columns")
-        part = slice(start, min(start + size, len(index)))
+    rigid, payload = np.empty((len(t), n)), np.empty((len(t), n, 10))
+    for start in range(0, len(t), CHUNK):
+        progress(0.05 + 0.2 * start / len(t), "rigid-body columns")
+        part = slice(start, min(start + CHUNK, len(t)))
         columns = torque_regressor(robot, q[part], qd[part], qdd[part], gravity=gravity)
         rigid[part] = columns @ nominal
         payload[part] = columns[:, :, -10:] @ to_last
-        pooled = columns if window == 1 else columns.reshape(-1, window, n, 10 * n).mean(axis=1)
-        regressor[part.start // window : part.stop // window] = np.swapaxes(pooled, 1, 2)
-        gravity_columns[part], force_columns[part] = gravity_and_force_columns(robot, q[part])
+        pooled = _pooled(columns, points)
+        regressor[part.start // points : part.stop // points] = np.swapaxes(pooled, 1, 2)
+    gravity_columns, force_columns = gravity_and_force_columns(robot, q)
+    middle = _pooled(t, points)
+    wide = float(np.median(np.diff(middle))) if count > 1 else log.step
     state = State(
         t=t, q=q, qd=qd, qdd=qdd, torque=rigid,
-        torque_rate=_rate(t, rigid, window, runs),
+        torque_rate=np.repeat(_rate(middle, _pooled(rigid, points), runs), points, axis=0),
         gravity_torque=gravity_columns @ gravity,
         gravity_columns=gravity_columns, force_columns=force_columns, payload_columns=payload,
-        temperature=None if log.temperature is None else log.temperature[index],
-        speed=speed, seconds=float(log.t[-1] - log.t[0]),
+        temperature=None if log.temperature is None else _between(log.temperature, at),
+        speed=np.quantile(np.abs(qd), 0.9, axis=0), seconds=float(log.t[-1] - log.t[0]),
         sliding=np.array([joint.prismatic for joint in robot.joints]),
     )  # fmt: skip
-    pool = _pooler(window)
-    measured = torque[index]
-    wide = float(np.median(np.diff(pool(t)))) if count > 1 else log.step
+    measured = _pooled(torque[(first[:, None] + np.arange(window)).reshape(-1)], window)
+    turning = 0.5 * (window - 1) * log.step * np.abs(_pooled(qdd, points))
     return Samples(
-        state, window, pool(t), pool(measured - rigid), regressor,
-        _usable(state, smoothing, measured, pool, runs), _blocks(count), runs, index, wide, smoothing, thinned,
+        state, window, points, middle, measured - _pooled(rigid, points), regressor,
+        _usable(state, smoothing, measured, np.abs(_pooled(qd, points)), turning, runs),
+        _blocks(count), runs, first + window // 2, wide, smoothing, thinned,
     )  # fmt: skip
 
 
 def _windows(log: Log) -> tuple[np.ndarray, int, list[slice], bool]:
-    """Sample indices (M w,), w, runs of windows, and whether windows were left out."""
+    """First sample of each window (M,), their length w, runs of windows, and whether windows were left out."""
     total = len(log.t)
-    window = max(1, int(np.ceil(min(total, LARGEST_USED) / LARGEST_POOLED)))
+    longest = max(1, int(RESOLVED / log.step + 1e-6))
+    window = int(np.clip(total // ENOUGH, 1, longest))
+    keep_every = max(1, int(np.ceil(total / window / LARGEST_POOLED)))
     starts, runs, at = [], [], 0
-    keep_every = max(1, int(np.ceil(total / LARGEST_USED)))
     for part in log.segments:
         first = np.arange(part.start, part.stop - window + 1, window * keep_every)
         if len(first) >= 8:
             starts.append(first)
             runs.append(slice(at, at + len(first)))
             at += len(first)
-    first = np.concatenate(starts)
-    return (first[:, None] + np.arange(window)).reshape(-1), window, runs, keep_every > 1
+    return np.concatenate(starts), window, runs, keep_every > 1
 
 
-def _earlier(log: Log, values: np.ndarray, index: np.ndarray, shift: float) -> np.ndarray:
-    """Values at t - shift by local cubics through four neighbours, gaps left out of account."""
+def _points(first: np.ndarray, window: int) -> np.ndarray:
+    """(M c,) places among the samples, not whole, that stand for each window."""
+    if window == 1:
+        return first.astype(float)
+    spread = np.sqrt((window**2 - 1) / 12.0)  # standard deviation of the samples' places
+    middle = first + 0.5 * (window - 1)
+    return (middle[:, None] + spread * np.array([-1.0, 1.0])).reshape(-1)
+
+
+def _between(values: np.ndarray, at: np.ndarray) -> np.ndarray:
+    """Values at places between samples."""
+    low = np.minimum(at.astype(int), len(values) - 2)
+    share = at - low
+    if not share.any():
+        return values[low]
+    share = share.reshape(-1, *[1] * (values.ndim - 1))
+    return values[low] + share * (values[low + 1] - values[low])
+
+
+def _pooled(values: np.ndarray, size: int) -> np.ndarray:
+    if size == 2:
+        return 0.5 * (values[::2] + values[1::2])
+    return values if size == 1 else values.reshape(-1, size, *values.shape[1:]).mean(axis=1)
+
+
+def _at(log: Log, values: np.ndarray, t: np.ndarray) -> np.ndarray:
+    """Values at times [s] from the log's start by local cubics through four neighbours, gaps left out of account."""
     from scipy.interpolate import CubicHermiteSpline
 
     slope = np.gradient(values, log.t, axis=0)
-    return CubicHermiteSpline(log.t, values, slope, axis=0)(
-        np.clip(log.t[index] - shift, log.t[0], log.t[-1])
-    )
+    return CubicHermiteSpline(log.t, values, slope, axis=0)(np.clip(t + log.t[0], log.t[0], log.t[-1]))
 
 
-def _rate(t: np.ndarray, values: np.ndarray, window: int, runs: list[slice]) -> np.ndarray:
-    if window > 1:
-        v, s = values.reshape(-1, window, values.shape[1]), t.reshape(-1, window)
-        slope = (v[:, -1] - v[:, 0]) / np.maximum(s[:, -1] - s[:, 0], 1e-12)[:, None]
-        return np.repeat(slope, window, axis=0)
+def _rate(t: np.ndarray, values: np.ndarray, runs: list[slice]) -> np.ndarray:
     out = np.empty_like(values)
     for run in runs:
         out[run] = np.gradient(values[run], t[run], axis=0)
     return out
 
 
-def _pooler(window: int):
-    def pool(values: np.ndarray) -> np.ndarray:
-        return values if window == 1 else values.reshape(-1, window, *values.shape[1:]).mean(axis=1)
-
-    return pool
-
-
-def _usable(state: State, smoothing: Smoothing, measured: np.ndarray, pool, runs: list[slice]) -> np.ndarray:
-    count, n = len(pool(state.t)), state.joints
-    out = np.ones((count, n), bool)
-    slowest = np.abs(pool(state.qd))
-    for j in range(n):
+def _usable(
+    state: State,
+    smoothing: Smoothing,
+    measured: np.ndarray,
+    speed: np.ndarray,
+    turning: np.ndarray,
+    runs: list[slice],
+) -> np.ndarray:
+    """(M, n); speed: (M, n) its size, turning: (M, n) how far it may change from a window's middle to its end."""
+    out = np.ones(measured.shape, bool)
+    for j in range(measured.shape[1]):
         if np.ptp(measured[:, j]) == 0:
             out[:, j] = False
         elif state.moves(j):
             noise = smoothing.noise[j] if smoothing.source == "recorded speed" else 0.0
-            slow = slowest[:, j] < max(SLOW * state.speed[j], min(SLOWEST, 0.15 * state.speed[j]), 3 * noise)
-            if slow.mean() < 0.85:
-                out[:, j] &= ~slow
+            slow = max(SLOW * state.speed[j], min(SLOWEST, 0.15 * state.speed[j]), 3 * noise)
+            open_direction = speed[:, j] < np.maximum(slow, turning[:, j])
+            if open_direction.mean() < 0.85:
+                out[:, j] &= ~open_direction
     edge = min(max(smoothing.half_widths), 6)
     for run in runs:
         out[run.start : run.start + edge] = out[run.stop - edge : run.stop] = False
@@ -203,6 +226,6 @@ def _usable(state: State, smoothing: Smoothing, measured: np.ndarray, pool, runs
 
 
 def _blocks(count: int) -> np.ndarray:
-    """(M,) block of each window: 24 to 80 blocks of 25 windows or more."""
-    number = int(np.clip(count // 25, 12, 80))
+    """(M,) block of each window: 12 to MOST_BLOCKS blocks, of 25 windows where there are so many."""
+    number = int(np.clip(count // 25, 12, MOST_BLOCKS))
     return np.arange(count) * number // count

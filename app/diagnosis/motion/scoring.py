@@ -40,14 +40,13 @@ def solve(
     system: System,
     selected: list[Group],
     prior: np.ndarray,
-    blocks: np.ndarray | None = None,
 ) -> Solution:
     """Least squares with the prior's information (60, 60) on the inertial part.
 
     Args:
         prior: (i, i) information matrix of the leading unknowns.
     """
-    A, g, yy = system.normal(selected, blocks)
+    A, g, yy = system.normal(selected)
     i = len(prior)
     A[:i, :i] += prior
     scale = np.sqrt(np.diag(A))
@@ -74,21 +73,54 @@ class Candidate:
 
 
 @dataclass(frozen=True, eq=False)
+class Batch:
+    """Groups of one size, or windows of one group.
+
+    Args:
+        raw, matrix: (c, k, k) Gram matrices bare and projected.
+        block: (c, k, B) projected block scores.
+        windows: (c, 2) block edges, or None.
+    """
+
+    groups: list[Group]
+    raw: np.ndarray
+    matrix: np.ndarray
+    block: np.ndarray
+    windows: np.ndarray | None
+
+
+@dataclass(frozen=True, eq=False)
 class Board:
     """Scores of all candidates against one model.
 
     Args:
         gain: (c,) fall of the whitened sum of squares if it is added.
         score: (c,) -log10 p.
-        rows: (r, B + 1) whitened block scores of all candidates one under the other; `starts` (c,) says where.
+        sizes, visible: (c,).
+        rows: per batch (c, k, B + 1), scaled so that squares of their sums add up to the gain.
+        batches: where the candidates come from; `batch`, `item` (c,) say which each is.
     """
 
-    candidates: list[Candidate]
     gain: np.ndarray
     score: np.ndarray
     sizes: np.ndarray
-    rows: np.ndarray
-    starts: np.ndarray
+    visible: np.ndarray
+    rows: list[np.ndarray]
+    batches: list[Batch]
+    batch: np.ndarray
+    item: np.ndarray
+
+    def __len__(self) -> int:
+        return len(self.gain)
+
+    def __getitem__(self, index: int) -> Candidate:
+        if not 0 <= index < len(self):
+            raise IndexError(index)
+        batch, c = self.batches[self.batch[index]], int(self.item[index])
+        group, window = batch.groups[c if batch.windows is None else 0], None
+        if batch.windows is not None:
+            window = (int(batch.windows[c, 0]), int(batch.windows[c, 1]))
+        return Candidate(group, int(self.sizes[index]), float(self.visible[index]), window)
 
 
 def score_all(
@@ -97,19 +129,31 @@ def score_all(
     groups: list[Group],
     windows: dict[Group, np.ndarray],
     bases: list[Group],
+    *,
+    null: bool = True,
 ) -> Board:
-    """Scores every group, and every window (w, 2) of block edges of every base group."""
+    """Scores every group, and every window (w, 2) of block edges of every base group.
+
+    Args:
+        null: False where no null will be drawn: scores are then not kept block by block.
+    """
     inverse, theta = solution.covariance, solution.theta
-    blocks, p = system.block_count, len(theta)
-    scores = system.block_scores(theta, solution.columns, solution.positions)  # per joint (B, P)
-    score_nuisance = np.zeros((p, blocks))
-    for u, col, pos in zip(scores, solution.columns, solution.positions, strict=True):
-        score_nuisance[pos] += u[:, col].T
-    # The prior's own observations are one more block: with it the scores of the nuisance add up to zero.
-    score_nuisance = np.column_stack([score_nuisance, -score_nuisance.sum(1)])
-    scores = [np.concatenate([u, np.zeros_like(u[:1])]) for u in scores]
-    blocks += 1
-    spread = inverse @ score_nuisance  # (p, B)
+    p = len(theta)
+    if null:
+        scores = system.block_scores(theta, solution.columns, solution.positions)  # per joint (B, P)
+        nuisance = np.zeros((p, system.block_count))
+        for u, col, pos in zip(scores, solution.columns, solution.positions, strict=True):
+            nuisance[pos] += u[:, col].T
+        # The prior's own observations are one more block: with it the scores of the nuisance add up to zero.
+        nuisance = np.column_stack([nuisance, -nuisance.sum(1)])
+        scores = [np.concatenate([u, np.zeros_like(u[:1])]) for u in scores]
+        spread = inverse @ nuisance  # (p, B + 1)
+    else:
+        scores = [
+            (part.total[0] - theta[pos] @ part.total[col])[None]
+            for part, col, pos in zip(system.parts, solution.columns, solution.positions, strict=True)
+        ]
+        spread = np.zeros((p, 1))
     found: list[Batch] = []
     local: dict[tuple[int, int], list[Group]] = {}
     for group in groups:
@@ -121,77 +165,65 @@ def score_all(
         found.append(Batch([group], raw[None], matrix[None], (block - cross @ spread)[None], None))
     for (j, size), members in local.items():
         part, col, pos = system.parts[j], solution.columns[j], solution.positions[j]
-        at = np.array([np.arange(part.places[g].start, part.places[g].stop) for g in members])  # (g, k)
+        at = np.array([part.places[g].start for g in members])[:, None] + np.arange(size)  # (g, k)
         cross = part.total[at[:, :, None], col]  # (g, k, p)
         raw = part.total[at[:, :, None], at[:, None, :]]
         flat = cross.reshape(-1, len(col))
-        half = (flat @ inverse[np.ix_(pos, pos)]).reshape(cross.shape)
+        half = (flat @ inverse[pos[:, None], pos]).reshape(cross.shape)
         matrix = raw - half @ np.swapaxes(cross, 1, 2)
-        block = np.moveaxis(scores[j][:, at], 0, -1) - (flat @ spread[pos]).reshape(
-            len(members), size, blocks
-        )
+        block = np.moveaxis(scores[j][:, at], 0, -1) - (flat @ spread[pos]).reshape(*at.shape, -1)
         found.append(Batch(members, raw, matrix, block, None))
-    found += [_windows(system, solution, scores, spread, group, windows[group]) for group in bases]
-    return _board(found, blocks)
+    found += [_windows(system, solution, spread, group, windows[group], null) for group in bases]
+    return _board(found)
 
 
-@dataclass(frozen=True, eq=False)
-class Batch:
-    """Groups of one size: Gram matrices bare and projected (c, k, k), projected block scores (c, k, B)."""
-
-    groups: list[Group]
-    raw: np.ndarray
-    matrix: np.ndarray
-    block: np.ndarray
-    windows: np.ndarray | None
-
-
-def _board(batches: list[Batch], blocks: int) -> Board:
+def _board(batches: list[Batch]) -> Board:
     """Keeps what this log can see; rows are scaled so that squares of their sums add up to the gain."""
-    candidates: list[Candidate] = []
-    rows, starts, at = [], [], 0
+    gains, sizes, visible, rows, items = [], [], [], [], []
     for batch in batches:
         diagonal = np.diagonal(batch.raw, axis1=1, axis2=2)
         scale = np.sqrt(np.where(diagonal > 0, diagonal, 1.0))
         scaled = batch.matrix / scale[:, :, None] / scale[:, None, :]
-        size = batch.raw.shape[1]
-        if size == 1:
+        if batch.raw.shape[1] == 1:
             values, vectors = scaled[:, :, 0], np.ones_like(scaled)
         else:
             values, vectors = np.linalg.eigh(scaled)
         least = LEAST_VISIBLE_SHARED if batch.groups[0].joint is None else LEAST_VISIBLE
         keep = (values > least**2) & np.all(diagonal > 0, axis=1)[:, None]
         half = np.swapaxes(vectors, 1, 2) / np.sqrt(np.where(keep, values, np.inf))[:, :, None]
-        done = half @ (batch.block / scale[:, :, None])
-        visible = np.sqrt(np.clip(values.mean(1), 0.0, 1.0))
         count = keep.sum(1)
-        for c in np.flatnonzero(count):
-            group = batch.groups[c] if batch.windows is None else batch.groups[0]
-            window = None if batch.windows is None else (int(batch.windows[c, 0]), int(batch.windows[c, 1]))
-            candidates.append(Candidate(group, int(count[c]), float(visible[c]), window))
-            starts.append(at)
-            at += size
-        rows.append(done[count > 0].reshape(-1, blocks))
-    if not candidates:
-        empty = np.zeros(0)
-        return Board([], empty, empty, empty, np.zeros((0, blocks)), empty.astype(int))
-    sizes, begin, stacked = np.array([c.size for c in candidates]), np.array(starts), np.concatenate(rows)
-    gain = np.add.reduceat(stacked.sum(1) ** 2, begin)
-    return Board(candidates, gain, minus_log_p(gain, sizes), sizes, stacked, begin)
+        seen = np.flatnonzero(count)
+        done = half[seen] @ (batch.block[seen] / scale[seen, :, None])
+        rows.append(done)
+        gains.append(np.sum(done.sum(2) ** 2, axis=1))
+        sizes.append(count[seen])
+        visible.append(np.sqrt(np.clip(values[seen].mean(1), 0.0, 1.0)))
+        items.append(seen)
+    which = np.repeat(np.arange(len(batches)), [len(i) for i in items])
+    none = [np.zeros(0)]
+    gain, size = np.concatenate(gains or none), np.concatenate(sizes or none).astype(int)
+    score = minus_log_p(gain, size)
+    item = np.concatenate(items or none).astype(int)
+    return Board(gain, score, size, np.concatenate(visible or none), rows, batches, which, item)
 
 
-def _windows(system, solution, scores, spread, group: Group, windows: np.ndarray) -> Batch:
+def _windows(system: System, solution: Solution, spread, group: Group, windows: np.ndarray, null: bool):
     """All windows of one base group at once: sums over blocks are differences of running sums."""
-    D, E, U = _per_block(system, solution, scores, group)
+    D, E, U = _per_block(system, solution, group)
     D = np.concatenate([np.zeros_like(D[:1]), np.cumsum(D, 0)])
     E = np.concatenate([np.zeros_like(E[:1]), np.cumsum(E, 0)])
     a, b = windows[:, 0], windows[:, 1]
     raw, cross = D[b] - D[a], E[b] - E[a]  # (w, k, k), (w, k, p)
     flat = cross.reshape(-1, cross.shape[2])
     matrix = raw - (flat @ solution.covariance).reshape(cross.shape) @ np.swapaxes(cross, 1, 2)
-    index = np.arange(len(U))
-    inside = (index >= a[:, None]) & (index < b[:, None])  # (w, B)
-    block = inside[:, None, :] * U.T[None] - (flat @ spread).reshape(len(a), group.size, -1)
+    if null:
+        index = np.arange(len(U) + 1)
+        inside = (index >= a[:, None]) & (index < b[:, None])  # (w, B + 1)
+        block = inside[:, None, :] * np.concatenate([U, np.zeros_like(U[:1])]).T[None]
+    else:
+        running = np.concatenate([np.zeros_like(U[:1]), np.cumsum(U, 0)])
+        block = (running[b] - running[a])[:, :, None]
+    block = block - (flat @ spread).reshape(len(a), group.size, -1)
     return Batch([group], raw, matrix, block, windows)
 
 
@@ -207,21 +239,25 @@ def _shared(system: System, solution: Solution, scores: list[np.ndarray], group:
     return raw, cross, block
 
 
-def _per_block(system: System, solution: Solution, scores: list[np.ndarray], group: Group):
+def _per_block(system: System, solution: Solution, group: Group):
+    """Block by block: Gram matrix (B, k, k), its cross with the model (B, k, p), scores (B, k)."""
     blocks, p, k = system.block_count, len(solution.theta), group.size
-    D, E, U = np.zeros((blocks, k, k)), np.zeros((blocks, k, p)), np.zeros((len(scores[0]), k))
+    D, E, U = np.zeros((blocks, k, k)), np.zeros((blocks, k, p)), np.zeros((blocks, k))
     for j, (part, col, pos) in enumerate(
         zip(system.parts, solution.columns, solution.positions, strict=True)
     ):
         if group.joint is not None and group.joint != j:
             continue
         place = part.places[group]
-        own = part.activate(np.arange(place.start, place.stop), system.edges)
-        rest = part.activate(col, system.edges)
+        own, rest = part.activate(np.arange(place.start, place.stop)), part.activate(col)
+        cross = part.blocks[:, own[:, None], rest]
         D += part.blocks[:, own[:, None], own]
-        E[:, :, pos] += part.blocks[:, own[:, None], rest]
-        U += scores[j][:, place]
+        E[:, :, pos] += cross
+        U += part.blocks[:, own, part.activate(_FIRST)[0]] - cross @ solution.theta[pos]
     return D, E, U
+
+
+_FIRST = np.zeros(1, int)  # y's column
 
 
 def minus_log_p(gain: np.ndarray, size: np.ndarray) -> np.ndarray:
@@ -234,10 +270,15 @@ def minus_log_p(gain: np.ndarray, size: np.ndarray) -> np.ndarray:
 
 def null_scores(board: Board, signs: np.ndarray) -> np.ndarray:
     """(K,) the largest score over the whole board under sign flips by block; signs (K, B)."""
-    sums = board.rows @ signs.T  # (r, K)
-    gain = np.add.reduceat(sums**2, board.starts, axis=0)  # (c, K)
     best = np.full(signs.shape[0], -np.inf)
-    for size in np.unique(board.sizes):
-        top = gain[board.sizes == size].max(axis=0)
-        best = np.maximum(best, minus_log_p(top, np.full_like(top, size)))
+    start = 0
+    for rows in board.rows:
+        sizes = board.sizes[start : start + len(rows)]
+        start += len(rows)
+        sums = rows.reshape(-1, rows.shape[2]) @ signs.T  # (c k, K)
+        np.square(sums, out=sums)
+        gain = sums if rows.shape[1] == 1 else sums.reshape(*rows.shape[:2], len(signs)).sum(1)
+        for size in np.unique(sizes):
+            top = gain[sizes == size].max(axis=0)
+            best = np.maximum(best, minus_log_p(top, np.full_like(top, size)))
     return best

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from types import MappingProxyType
 
 import numpy as np
@@ -23,6 +24,8 @@ MOST_EVENTS = {"payload_change": 2, "contact": 3}
 LOUD = 0.02  # share of what is left that a law must explain to come in past a wild null
 EVENT = 1.8  # times the null an event's score must be
 SHAPELY = 0.03  # share of its gain by which a law with a shape must beat one without
+NEAR = 0.8  # of what is there must a law explain before its shape is bent: shapes lie close on the grid
+TRIES = 12  # candidates looked at closely in one round
 BETTER = 2.0  # an exchange must be worth this much
 DROP = 8.0  # a term must be worth this much beyond the Bayesian criterion
 
@@ -59,7 +62,7 @@ class Search:
         self.signs = rng.choice([-1.0, 1.0], (FLIPS, self.system.block_count + 1))
         self.signs[:, -1] = 0.0  # the prior's block is no data: flipped, a real load would hide behind it
 
-    def board(self, solution: Solution, selected: list[Group]) -> Board:
+    def board(self, solution: Solution, selected: list[Group], *, null: bool = True) -> Board:
         """Scores of everything that may still come in."""
         taken = {_key(g) for g in selected[self.known :]}
         groups = [g for g in self.groups if not g.base and _key(g) not in taken]
@@ -67,7 +70,7 @@ class Search:
         bases = [
             g for g in self.windows if count[g.label] < MOST_EVENTS.get(g.label, 1) and len(self.windows[g])
         ]
-        return score_all(self.system, solution, groups, self.windows, bases)
+        return score_all(self.system, solution, groups, self.windows, bases, null=null)
 
     def forward(self, progress: Progress, start: list[Term], stay: int = 0) -> list[Term]:
         """Takes the best candidate as long as it beats the null and held-out loss falls.
@@ -78,48 +81,70 @@ class Search:
         terms = list(start)
         refused: set = set()
         while len(terms) < MOST_TERMS:
-            selected = [t.group for t in terms]
             progress(0.35 + 0.4 * len(terms) / (len(terms) + 8), f"search, {len(terms)} found")
-            solution = solve(self.system, selected, self.prior)
-            board = self.board(solution, selected)
-            if not board.candidates:
+            more = self._best(terms, refused)
+            if not more:
                 break
-            null = null_scores(board, self.signs)
-            sure = np.log10(len(board.candidates) / LEVEL)
-            bar = max(float(null.max()), sure)
-            loss, taken = None, False
-            for index in np.argsort(-board.score)[:12]:
-                candidate = board.candidates[index]
-                # While much is left unexplained the null is as wild as the residual: then what was not
-                # used for the fit must speak, and speak loudly.
-                if board.score[index] <= bar and board.gain[index] < LOUD * solution.rss:
-                    break
-                # Events are sought at very many places: noise that remembers finds one easily.
-                if (
-                    candidate.group.law is not None
-                    and candidate.group.law.windowed
-                    and board.score[index] < EVENT * bar
-                ):
-                    continue
-                if board.score[index] <= sure or (_key(candidate.group), candidate.window) in refused:
-                    continue
-                group = self._settle(candidate, selected)
-                if not self._possible(group, selected):
-                    refused.add((_key(candidate.group), candidate.window))
-                    continue
-                if loss is None:
-                    loss = heldout_losses(self.system, selected, self.prior)
-                least = loss if board.score[index] > bar else (1.0 - LOUD) * loss
-                falls = heldout_losses(self.system, [*selected, group], self.prior) < least
-                if falls.all() or (group.law is not None and group.law.windowed and falls[0]):
-                    taken = True
-                    terms.append(Term(group, 1.0 / (1 + FLIPS), candidate.visible))
-                    break
-                refused.add((_key(candidate.group), candidate.window))
-            if not taken:
-                break
-            terms = self.backward(terms, stay)
+            terms = self.backward([*terms, *more], stay)
         return terms
+
+    def _best(self, terms: list[Term], refused: set) -> list[Term]:
+        """The best candidate, and with it the best laws of other joints that stand as well with it in.
+
+        Args:
+            refused: what was tried and earned no place; grows.
+        """
+        selected = [t.group for t in terms]
+        solution = solve(self.system, selected, self.prior)
+        board = self.board(solution, selected)
+        if not len(board):
+            return []
+        sure = np.log10(len(board) / LEVEL)
+        bar = _Bar(board, self.signs, sure)
+        rss, loss, tries = solution.rss, None, 0
+        more: list[Term] = []
+        touched: set[int] = set()
+        for index in np.argsort(-board.score):
+            score, gain, candidate = board.score[index], board.gain[index], board[index]
+            group = candidate.group
+            windowed = group.law is not None and group.law.windowed
+            if tries == TRIES or score <= sure:
+                break
+            # While much is left unexplained the null is as wild as the residual: then what was not
+            # used for the fit must speak, and speak loudly.
+            loud = gain >= LOUD * rss
+            if not loud and score <= bar.value:
+                break
+            # Events are sought at very many places: noise that remembers finds one easily.
+            if windowed and score < EVENT * bar.value:
+                continue
+            if more and (group.joint is None or group.joint in touched):
+                if group.joint is None:
+                    break
+                continue
+            if (_key(group), candidate.window) in refused:
+                continue
+            tries += 1
+            group = self._settle(candidate, selected)
+            if not self._possible(group, selected):
+                refused.add((_key(candidate.group), candidate.window))
+                continue
+            if loss is None:
+                loss = heldout_losses(self.system, selected, self.prior)
+            falls = heldout_losses(self.system, [*selected, group], self.prior)
+            good = falls < (1.0 - LOUD) * loss
+            if not good.all() and score > bar.value:
+                good = falls < loss
+            if not (good.all() or (windowed and good[0])):
+                if not more:  # beside others that came in just now it may only have been too late
+                    refused.add((_key(candidate.group), candidate.window))
+                continue
+            more.append(Term(group, 1.0 / (1 + FLIPS), candidate.visible))
+            if group.joint is None:
+                break
+            touched.add(group.joint)
+            selected, loss = [*selected, group], falls
+        return more
 
     def _possible(self, group: Group, selected: list[Group]) -> bool:
         """True where the values it would take are some that an arm can have."""
@@ -151,10 +176,12 @@ class Search:
                 g for g in self.groups if g.joint == term.group.joint and not g.base and _key(g) not in taken
             ]
             solution = solve(self.system, others, self.prior)
-            board = score_all(self.system, solution, here, {}, [])
-            first = board.gain - penalty * np.array([_freedom(c.group) for c in board.candidates])
+            board = score_all(self.system, solution, here, {}, [], null=False)
+            first = board.gain - penalty * np.array([_freedom(board[c].group) for c in range(len(board))])
             for index in np.argsort(-first)[:4]:
-                group = board.candidates[index].group
+                if first[index] < NEAR * own:
+                    break
+                group = board[index].group
                 if group.label == term.group.label and group.where == term.group.where:
                     continue
                 group = bent(self.system, self.prior, others, group)
@@ -167,7 +194,7 @@ class Search:
                 if worth > own + least:
                     terms = [
                         *terms[:i],
-                        Term(group, term.p_value, board.candidates[index].visible),
+                        Term(group, term.p_value, board[index].visible),
                         *terms[i + 1 :],
                     ]
                     own = worth
@@ -202,6 +229,17 @@ class Search:
             out.append(float(part @ np.linalg.solve(solution.covariance[place, place], part)))
             at += group.size
         return np.array(out)
+
+
+class _Bar:
+    """What a score must exceed; the null is drawn only where it is asked for."""
+
+    def __init__(self, board: Board, signs: np.ndarray, sure: float):
+        self._board, self._signs, self._sure = board, signs, sure
+
+    @cached_property
+    def value(self) -> float:
+        return max(float(null_scores(self._board, self._signs).max()), self._sure)
 
 
 def _freedom(group: Group) -> int:
