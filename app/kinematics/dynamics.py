@@ -1,9 +1,7 @@
 """Joint torques of a rigid arm for whole recordings: inverse dynamics, and what is linear in them.
 
-Torque is linear in the links' inertial parameters, in gravity, and in a force at the flange. Each of these
-is given as columns, so that a fit needs no finite differences.
-
-Source: Atkeson, An, Hollerbach (1986), regressor form of the rigid-body dynamics; pin computes it.
+Torque is linear in the links' inertial parameters (regressor.py), in gravity, and in a force at the flange. Each
+of these is given as columns, so that a fit needs no finite differences.
 """
 
 from __future__ import annotations
@@ -12,10 +10,9 @@ import numpy as np
 import pinocchio as pin  # pyright: ignore[reportMissingImports]  (found through a .pth hook)
 
 from app.geometry.rotation import skew
+from app.kinematics.regressor import PER_LINK
 from app.kinematics.robot import GRAVITY, RobotModel
 
-#: Inertial parameters of one body: mass, mass times centre (3), inertia about the body frame's origin (6).
-PER_LINK = 10
 #: Order of the six: xx, xy, yy, xz, yz, zz.
 _INERTIA_INDEX = ((0, 0), (0, 1), (1, 1), (0, 2), (1, 2), (2, 2))
 
@@ -43,26 +40,6 @@ def inverse_dynamics(
     for i, (a, b, c) in enumerate(zip(q, qd, qdd, strict=True)):
         out[i] = pin.rnea(model, data, a, b, c)
     return out
-
-
-def torque_regressor(
-    robot: RobotModel, q: np.ndarray, qd: np.ndarray, qdd: np.ndarray, *, gravity: np.ndarray = GRAVITY
-) -> np.ndarray:
-    """Y with Y @ inertial_parameters = torque.
-
-    Args:
-        q, qd, qdd: (m, n).
-
-    Returns:
-        (m, n, 10 n).
-    """
-    model = _under(robot, gravity)
-    data, regressor = model.createData(), pin.computeJointTorqueRegressor
-    m, n = q.shape
-    out = np.empty((m, PER_LINK * n, n))  # pin keeps columns together: the copy is then one run of memory
-    for i, (a, b, c) in enumerate(zip(q, qd, qdd, strict=True)):
-        out[i] = regressor(model, data, a, b, c).T
-    return np.swapaxes(out, 1, 2)
 
 
 def _under(robot: RobotModel, gravity: np.ndarray) -> pin.Model:

@@ -14,8 +14,8 @@ from app.kinematics.dynamics import (
     flange_to_last_link,
     gravity_and_force_columns,
     inertial_parameters,
-    torque_regressor,
 )
+from app.kinematics.regressor import torque_regressor
 from app.proof.generator.effects.term import Request
 from app.proof.generator.motion.cell import effect_on_torques
 from app.proof.generator.motion.making import MotionPlan, make_motion

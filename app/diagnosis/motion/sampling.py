@@ -21,8 +21,8 @@ from app.kinematics.dynamics import (
     flange_to_last_link,
     gravity_and_force_columns,
     inertial_parameters,
-    torque_regressor,
 )
+from app.kinematics.regressor import torque_regressor
 from app.kinematics.robot import GRAVITY
 
 ENOUGH = 2_000  # windows wanted before samples are averaged at all

@@ -19,6 +19,7 @@ from app.kinematics.dynamics import PER_LINK
 
 ROOM = 64  # columns that may come in before memory is moved
 
+
 @dataclass(frozen=True, eq=False)
 class Group:
     """Columns that come and go together.

@@ -11,7 +11,8 @@ from pathlib import Path
 import numpy as np
 
 from app.kinematics import RobotModel
-from app.kinematics.dynamics import flange_to_last_link, inverse_dynamics, point_mass, torque_regressor
+from app.kinematics.dynamics import flange_to_last_link, inverse_dynamics, point_mass
+from app.kinematics.regressor import torque_regressor
 from app.recordings import Table, read_table
 
 HARMONICS = 4
