@@ -36,8 +36,8 @@ def torque_regressor(
     out = np.zeros((n, PER_LINK * n, m))
     for start in range(0, m, CHUNK):
         part = slice(start, start + CHUNK)
-        motion = (np.ascontiguousarray(x[part].T) for x in (q, qd, qdd))
-        _fill(robot.chain, *motion, np.asarray(gravity, float), out[:, :, part])
+        place, speed, push = (np.ascontiguousarray(x[part].T) for x in (q, qd, qdd))
+        _fill(robot.chain, place, speed, push, np.asarray(gravity, float), out[:, :, part])
     return np.moveaxis(out, 2, 0)
 
 

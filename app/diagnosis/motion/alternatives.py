@@ -28,7 +28,7 @@ def alternatives_of(study: Study, index: int) -> tuple[Alternative, ...]:
     penalty = np.log(max(study.system.rows, 3))
     out: dict[tuple, Alternative] = {}
     deltas = own_gain - board.gain + penalty * (board.sizes - own_size)
-    for at in np.flatnonzero(deltas < CLOSE):
+    for at in np.flatnonzero(deltas < CLOSE).tolist():
         candidate, delta = board[at], float(deltas[at])
         law, where = candidate.group.law, dict(candidate.group.where)
         assert law is not None

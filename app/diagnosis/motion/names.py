@@ -151,7 +151,7 @@ def _place(group: Group) -> str:
 def _beyond(board: Board, group: Group, bar: float) -> tuple[float, str]:
     """The largest significant gain of a free curve where this law acts."""
     best, driver = 0.0, ""
-    for candidate, gain, score in zip(board, board.gain, board.score, strict=True):
+    for candidate, gain, score in zip(board.all(), board.gain, board.score, strict=True):
         if score <= bar or (group.joint is not None and candidate.group.joint != group.joint):
             continue
         spare = gain - candidate.size

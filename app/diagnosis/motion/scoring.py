@@ -5,6 +5,7 @@ Source: score test with nuisance projected off (Rao 1948); sign flips of a resid
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -113,9 +114,10 @@ class Board:
     def __len__(self) -> int:
         return len(self.gain)
 
+    def all(self) -> Iterator[Candidate]:
+        return (self[k] for k in range(len(self)))
+
     def __getitem__(self, index: int) -> Candidate:
-        if not 0 <= index < len(self):
-            raise IndexError(index)
         batch, c = self.batches[self.batch[index]], int(self.item[index])
         group, window = batch.groups[c if batch.windows is None else 0], None
         if batch.windows is not None:

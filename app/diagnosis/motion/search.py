@@ -177,7 +177,7 @@ class Search:
             ]
             solution = solve(self.system, others, self.prior)
             board = score_all(self.system, solution, here, {}, [], null=False)
-            first = board.gain - penalty * np.array([_freedom(board[c].group) for c in range(len(board))])
+            first = board.gain - penalty * np.array([_freedom(c.group) for c in board.all()])
             for index in np.argsort(-first)[:4]:
                 if first[index] < NEAR * own:
                     break
