@@ -87,7 +87,7 @@ def points_from_table(table: Table) -> Points:
     table.require(["role"])
     by_pose, by_joints = _written_pose(table), _written_joints(table)
     robot = None
-    disagreement = None
+    apart = None
     joints = None
     if by_joints is not None:
         joints, robot = by_joints
@@ -103,7 +103,7 @@ def points_from_table(table: Table) -> Points:
             )
         by_pose = joints
     elif joints is not None:
-        disagreement = _disagreement(by_pose.poses(by_pose.values), joints.poses(joints.values))
+        apart = disagreement(by_pose.poses(by_pose.values), joints.poses(joints.values))
     roles = _roles(table)
     matrices = by_pose.poses(by_pose.values)
     q = None if joints is None else joints.values
@@ -116,7 +116,7 @@ def points_from_table(table: Table) -> Points:
         title = ": ".join(str(part) for pair in title.items() for part in pair)
     note = str(table.keys.get("note") or "")
     stated = _references(table)
-    return Points(table.path, str(title or ""), captures, by_pose, stated, disagreement, robot, note)
+    return Points(table.path, str(title or ""), captures, by_pose, stated, apart, robot, note)
 
 
 def _roles(table: Table) -> list[str]:
@@ -261,7 +261,8 @@ def _steps(table: Table, names: list[str]) -> np.ndarray:
     return np.array([table.resolution(name) for name in names])
 
 
-def _disagreement(poses: np.ndarray, others: np.ndarray) -> np.ndarray:
+def disagreement(poses: np.ndarray, others: np.ndarray) -> np.ndarray:
+    """(n, 2) distance [m] and angle [rad] between two batches of flange poses (n, 4, 4)."""
     distance = np.linalg.norm(poses[:, :3, 3] - others[:, :3, 3], axis=1)
     return np.stack([distance, angle_between(poses[:, :3, :3], others[:, :3, :3])], axis=1)
 

@@ -36,6 +36,7 @@ class Verification:
         rms: root mean square of that distance [m].
         expected: what the predicted uncertainty allows in 95 of 100 cases [m].
         stopped: why the arm could not finish, or "".
+        hindered: the same before it was put into words.
     """
 
     flanges: tuple[Pose, ...]
@@ -46,6 +47,7 @@ class Verification:
     rms: float
     expected: float
     stopped: str = ""
+    hindered: IkResult | None = None
 
     @property
     def inside(self) -> bool | None:
@@ -97,13 +99,13 @@ def verify(
     """
     poses, axes = turning_path(T_base_flange @ result.T_flange_tool, result.T_flange_tool)
     joints: list[np.ndarray] = []
-    stopped = ""
+    stopped, hindered = "", None
     if robot is not None:
         q = robot.home if q_start is None else np.asarray(q_start, float)
         for pose in poses:
             found: IkResult = solve_ik(robot, pose, q)
             if not found.reached:
-                stopped = found.sentence()
+                stopped, hindered = found.sentence(), found
                 break
             q = found.q
             joints.append(q)
@@ -121,6 +123,7 @@ def verify(
         float(np.sqrt(np.mean(away**2))),
         expected_wander(result),
         stopped,
+        hindered,
     )
 
 

@@ -21,7 +21,7 @@ from app.pendant.loaded import with_touched_point
 from app.pendant.moving import Moving
 from app.pendant.page import Page
 from app.pendant.stage import Stage
-from app.pendant.texts import FALLBACK, has_text, text
+from app.pendant.texts import FALLBACK, error_text, text
 from app.pendant.worker import Job, Worker
 from app.session import AnyAction, Session, SessionState
 from app.session.state import as_tuple, robot_named
@@ -196,10 +196,7 @@ class Pendant(Moving):
 
     def _tell(self, error: Exception) -> None:
         if isinstance(error, TeachframeError):
-            code = f"refused.{getattr(error, 'code', '')}"
-            known = has_text(code, self.language)
-            words = self.t(code, **getattr(error, "details", {})) if known else str(error)
-            self.say("warning", words)
+            self.say("warning", error_text(error, self.language))
         else:
             _LOG.error("a job failed", exc_info=error)
             words = one_line(f"{type(error).__name__}: {error}", 160)

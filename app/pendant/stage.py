@@ -7,6 +7,7 @@ import itertools
 import numpy as np
 import viser
 
+from app.calibration.verify import Verification
 from app.pendant.arm import ArmView
 from app.pendant.scene.camera import MORE_VIEWS, VIEWS, look
 from app.pendant.scene.cell import draw_cell
@@ -14,8 +15,11 @@ from app.pendant.scene.ground import lay_floor, light_up
 from app.pendant.scene.handle import Dragged, Handle
 from app.pendant.scene.held_tool import HeldTool
 from app.pendant.scene.marks import Marks
+from app.pendant.scene.next_arm import NextArm
+from app.pendant.scene.region import Region
 from app.pendant.scene.residuals import Residuals
 from app.pendant.scene.tool_axes import ToolAxes
+from app.pendant.scene.trace import Trace
 from app.session import SessionState
 from app.session.state import accepted
 from app.simulation.world import World
@@ -51,10 +55,13 @@ class Stage:
         self.marks = Marks(self._scene)
         self.residuals = Residuals(self._scene)
         self.axes = ToolAxes(self._scene, self.arm.flange_path)
+        self.region = Region(self._scene, self.arm.flange_path)
+        self.trace = Trace(self._scene)
+        self.next_arm = NextArm(self._scene, world.robot)
         self.show_handle, self.show_marks, self.show_residuals = handle, True, True
         self.handle.visible = handle
         self._drawn: tuple[object, ...] = ()
-        self._away = False
+        self._away = self._tracing = False
         self.view("whole")
 
     def floor(self, dark: bool) -> None:
@@ -75,6 +82,15 @@ class Stage:
         self._away = away
         self.arm.visible = self._cell.visible = not away
         self.handle.visible = not away and self.show_handle
+        self.next_arm.away(away)
+
+    def show_trace(self, found: Verification | None, state: SessionState, until: int | None = None) -> None:
+        """The trace of a turn about the tool point, in the place of handle, axes and region; None brings them back."""
+        self.trace.show(found, until)
+        if self._tracing != (found is not None):
+            self._tracing = found is not None
+            self._drawn = ()
+            self.refresh(state)
 
     def view(self, name: str) -> None:
         """Looks from one of the named places."""
@@ -86,6 +102,7 @@ class Stage:
         if self._held is not None:
             self._held.pose(q, world)
         self.handle.place(world.hand(q))
+        self.next_arm.arm_at(q)
 
     def refresh(self, state: SessionState) -> None:
         """Marks, residuals and axes, where they changed."""
@@ -96,9 +113,11 @@ class Stage:
         self._drawn = wanted
         self.marks.show(state.ordered if self.show_marks else ())
         # A result that waits for its decision is looked at, not moved: the handle would hide the arrows.
-        self.handle.visible = not self._away and self.show_handle and (result is None or accepted(state))
+        free = not self._away and not self._tracing
+        self.handle.visible = free and self.show_handle and (result is None or accepted(state))
         self.residuals.show(result if self.show_residuals and not accepted(state) else None)
+        self.region.show(result if self.show_residuals and not self._tracing else None)
         tool = (
             result.T_flange_tool if result is not None else state.tool.T_flange_tool if state.tool else None
         )
-        self.axes.show(tool)
+        self.axes.show(None if self._tracing else tool)

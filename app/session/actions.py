@@ -66,6 +66,14 @@ class Comment(Action, frozen=True, tag="comment"):
     text: str
 
 
+class Enter(Action, frozen=True, tag="enter"):
+    """A tool frame typed in, for the mode `direct`: a place [m], and angles [rad] or a quaternion in a convention."""
+
+    position: tuple[float, float, float]
+    angles: tuple[float, ...]
+    convention: str = "ZYX"
+
+
 class Calculate(Action, frozen=True, tag="calculate"):
     """Computes the tool frame from the recorded points."""
 
@@ -94,7 +102,8 @@ class LoadPoints(Action, frozen=True, tag="load_points"):
         values: the numbers in SI units, one tuple a row.
         steps: step of the last written digit of each column, SI units; 0 where exact.
         angles: key of the angle convention; empty where `values` are joint positions.
-        robot: the arm whose joints `values` are; empty where they are flange poses.
+        robot: the arm whose joints stand in the file; empty where there are flange poses alone.
+        joints: joint positions beside the flange poses, one tuple a row; () where only one of the two stands there.
         references: tool points [m] the file states, by name.
         note: what the file remarks about itself.
     """
@@ -112,6 +121,7 @@ class LoadPoints(Action, frozen=True, tag="load_points"):
     robot: str = ""
     references: dict[str, tuple[float, float, float]] = {}
     note: str = ""
+    joints: tuple[tuple[float, ...], ...] = ()
 
 
 class Undo(Action, frozen=True, tag="undo"):
@@ -131,6 +141,7 @@ AnyAction = (
     | ReRecord
     | Delete
     | Comment
+    | Enter
     | Calculate
     | Accept
     | Cancel

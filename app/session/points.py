@@ -8,13 +8,13 @@ from pathlib import Path
 import numpy as np
 
 from app.calibration.captures import Capture
-from app.calibration.points import Points, Written, read_points
+from app.calibration.points import Points, Written, disagreement, read_points
 from app.calibration.tool import ORIENTATIONS, allowed_orientation
 from app.errors import InputError
 from app.geometry import AngleConvention, Pose, convention
-from app.kinematics import RobotModel
+from app.kinematics import RobotModel, robot_names
 from app.session.actions import LoadPoints
-from app.session.state import MODES, SessionState, mode_named, robot_named
+from app.session.state import MODES, SessionState, as_tuple, mode_named, robot_named
 
 
 def load_action(path: Path, *, method: str = "joint", mode: str | None = None) -> LoadPoints:
@@ -30,6 +30,7 @@ def load_action(path: Path, *, method: str = "joint", mode: str | None = None) -
     """
     points = read_points(path)
     written = points.written
+    both = points.disagreement is not None and points.robot is not None and points.robot.name in robot_names()
     return LoadPoints(
         source=points.path.name,
         title=points.title,
@@ -41,9 +42,10 @@ def load_action(path: Path, *, method: str = "joint", mode: str | None = None) -
         values=tuple(tuple(float(v) for v in row) for row in written.values),
         steps=tuple(float(v) for v in written.steps),
         angles=written.convention.key if written.convention else "",
-        robot=points.robot.name if points.robot and not written.convention else "",
+        robot=points.robot.name if points.robot and (both or not written.convention) else "",
         references={name: (float(p[0]), float(p[1]), float(p[2])) for name, p in points.references.items()},
         note=points.note,
+        joints=tuple(as_tuple(c.q) for c in points.captures if c.q is not None) if both else (),
     )
 
 
@@ -70,13 +72,17 @@ def loaded_points(action: LoadPoints) -> Points:
     poses = _poses_by_angles(form) if form is not None else _poses_by_joints(robot)
     values = np.array(action.values, float)
     matrices = poses(values)
+    joints = None if robot is None else np.array(action.joints or action.values, float)
     captures = tuple(
-        Capture(f"row{row}", role, Pose(matrix), None if robot is None else values[i], row)
+        Capture(f"row{row}", role, Pose(matrix), None if joints is None else joints[i], row)
         for i, (role, row, matrix) in enumerate(zip(action.roles, action.rows, matrices, strict=True))
     )
+    apart = None
+    if robot is not None and action.joints:
+        apart = disagreement(matrices, _poses_by_joints(robot)(np.array(action.joints, float)))
     written = Written(action.columns, values, np.array(action.steps), poses, form)
     references = {name: np.array(point) for name, point in action.references.items()}
-    return Points(Path(action.source), action.title, captures, written, references, None, robot, action.note)
+    return Points(Path(action.source), action.title, captures, written, references, apart, robot, action.note)
 
 
 def recorded_points(state: SessionState) -> Points:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from app.errors import ActionRefusedError
+from app.calibration.solvers.point_fit import refuse_too_few
+from app.errors import ActionRefusedError, TeachframeError, TooFewPointsError
 
 _SENTENCES = {
     "no_step": "this mode has no point called {step!r}; it has {steps}",
@@ -16,6 +17,9 @@ _SENTENCES = {
     "touches": "{mode} takes {least} to {most} touches, not {given}",
     "missing": "not recorded yet: {titles}",
     "no_result": "there is no result yet; press Calculate first",
+    "not_direct": "numbers are typed in the mode direct entry; choose it first",
+    "not_entered": "no numbers are typed in yet",
+    "no_known_tool": "the known tool is not known yet; teach and accept it first, or type it in",
     "cannot_solve": "{reason}",
     "nothing_to_undo": "nothing to undo",
     "nothing_to_redo": "nothing to redo",
@@ -27,7 +31,22 @@ _SENTENCES = {
 
 
 def refusal(code: str, **details: Any) -> ActionRefusedError:
-    """The error of this code; `.code` and `.details` are for a translation."""
+    """The error of this code; `.code` and `.details` (where phrases speak for themselves) are for a translation."""
     error = ActionRefusedError(_SENTENCES[code].format(**details))
     error.code, error.details = code, details  # type: ignore[attr-defined]
     return error
+
+
+def cannot_solve(error: TeachframeError) -> ActionRefusedError:
+    """A refusal of the solver's, in its own words and under its own code (`.why`)."""
+    found = refusal("cannot_solve", reason=getattr(error, "said", None) or str(error))
+    found.why = getattr(error, "code", "")  # type: ignore[attr-defined]
+    return found
+
+
+def enough_touches(count: int) -> None:
+    """Raises ActionRefusedError, with what to do, where so few touches cannot determine a tool point."""
+    try:
+        refuse_too_few(count)
+    except TooFewPointsError as error:
+        raise cannot_solve(error) from None

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from typing import Any
+
+from app.calibration.points import Points
 from app.calibration.quality.leave_one_out import leave_one_out
 from app.calibration.quality.light import light
 from app.calibration.quality.references import gap_to
@@ -9,7 +12,8 @@ from app.calibration.quality.rounding import least_turn, rounding
 from app.calibration.solving import Solved
 from app.calibration.tool import calibrate
 from app.session.points import orientation_of, recorded_points
-from app.session.state import SessionState, mode_named
+from app.session.refusals import refusal
+from app.session.state import DIRECT, SessionState, mode_named
 
 
 def solve(state: SessionState) -> Solved:
@@ -21,9 +25,7 @@ def solve(state: SessionState) -> Solved:
     points = recorded_points(state)
     orientation = orientation_of(state.mode)
     if orientation is None:
-        known = state.tool.T_flange_tool.position if state.tool else None
-        options = {"known_tool": known} if any("known" in c.roles for c in points.captures) else {}
-        result = mode_named(state.mode).solve(points.captures, **options)
+        result = mode_named(state.mode).solve(points.captures, **_options(state, points))
     else:
         result = calibrate(
             points.captures,
@@ -36,3 +38,22 @@ def solve(state: SessionState) -> Solved:
     gaps = tuple(gap_to(name, stated, result, effect) for name, stated in points.references.items())
     left = leave_one_out(points.captures) if len(result.residual_vectors) else ()
     return Solved(points, result, effect, gaps, left, light(result))
+
+
+def _options(state: SessionState, points: Points) -> dict[str, Any]:
+    """What a mode with a way of its own has to be told."""
+    if state.mode == DIRECT:
+        if state.entered is None:
+            raise refusal("not_entered")
+        entered = state.entered
+        return {
+            "position": entered.position,
+            "angles": entered.angles,
+            "angle_convention": entered.convention,
+        }
+    options: dict[str, Any] = {"context": {"points": points}}
+    if any("known" in c.roles for c in points.captures):
+        if state.tool is None:
+            raise refusal("no_known_tool")
+        options["known_tool"] = state.tool.T_flange_tool.position
+    return options

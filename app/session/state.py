@@ -15,11 +15,13 @@ from app.calibration.captures import Capture, Mode, Step
 from app.calibration.solving import Solved
 from app.geometry import Pose
 from app.kinematics import RobotModel, load_robot, robot_names
-from app.session.actions import LoadPoints
+from app.session.actions import Enter, LoadPoints
 
 MODES = "app.calibration.modes"
 FIRST_ROBOT = "jby50"
 FIRST_MODE = "touch_zx"
+#: The mode in which numbers are typed instead of points recorded.
+DIRECT = "direct"
 
 
 @dataclass(frozen=True)
@@ -45,6 +47,7 @@ class SessionState:
         result: what Calculate gave, with its quality; None as soon as a point changes.
         tools: accepted tools, the last one is active.
         source: the file the points came from; None where they were recorded here.
+        entered: the tool frame typed in for the mode `direct`.
         count: actions so far.
         before: what Undo goes back to.
         after: what Redo goes forward to.
@@ -60,6 +63,7 @@ class SessionState:
     result: Solved | None = None
     tools: tuple[Tool, ...] = ()
     source: LoadPoints | None = None
+    entered: Enter | None = None
     count: int = 0
     before: SessionState | None = field(default=None, repr=False)
     after: SessionState | None = field(default=None, repr=False)

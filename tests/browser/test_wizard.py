@@ -5,11 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from app.calibration.exchange import read_frame
 from app.geometry import Pose, angle_between
 from app.kinematics import load_robot
-from app.session import replay
 from app.simulation.world import default_world
-from app.units import deg, from_mm, mm
+from app.units import deg, from_deg, from_mm, mm
 
 pytestmark = [pytest.mark.browser, pytest.mark.xdist_group("browser")]
 
@@ -37,6 +37,9 @@ def test_a_person_finds_a_hidden_tool_with_handle_fields_and_clicks(serve, sit_d
 
     lift_with_the_handle(person)
     person.picture("wizard_2_dragged")
+    person.page.get_by_role("button", name="Go to the ghost", exact=True).wait_for()
+    person.until(lambda: person.pendant.stage.next_arm.visible, "the ghost of the best next touch")
+    assert "after all 4 touches as proposed" in person.seen("next-touch")
 
     for number, step in enumerate(person.state.steps, 1):
         if "touch" in step.roles and number > 1:
@@ -66,12 +69,14 @@ def test_a_person_finds_a_hidden_tool_with_handle_fields_and_clicks(serve, sit_d
     assert deg(angle_between(result.T_flange_tool.rotation, hidden.rotation)) < AXIS_TOLERANCE_DEG
 
     person.page.get_by_test_id("light").wait_for()
+    assert "95% region" in person.seen("region") and "drawn ×" in person.seen("region")
+    assert person.page.get_by_test_id("cone").count() == 2
     shown = person.seen("tool-point")
     for value in mm(result.tool_point):
         assert f"{value:.3f}" in shown
     assert f"{mm(result.mean):.3f} mm" in person.seen("figures")
-    for miss in mm(result.per_point):
-        assert f"{miss:.3f}" in person.seen("touches")
+    for miss, left in zip(mm(result.per_point), person.state.result.left_out, strict=True):
+        assert f"{miss:.3f}" in person.seen("touches") and f"{mm(left.heldout):.2f}" in person.seen("touches")
     person.picture("wizard_4_result")
 
     person.click("Accept")
@@ -81,11 +86,38 @@ def test_a_person_finds_a_hidden_tool_with_handle_fields_and_clicks(serve, sit_d
     person.click("Tip")
     person.picture("wizard_5_accepted")
 
-    store_path = person.pendant.session.path
-    again, torn = replay(store_path)
-    assert not torn
+    verify_by_turning(person, result, hidden)
+    take_away(person, result)
+
+    again = person.server.hub.store.state(person.pendant.session.name)
     assert np.array_equal(again.result.result.tool_point, result.tool_point)
     assert not person.faults
+
+
+def verify_by_turning(person, result, hidden):
+    """The turn about the new tool point wanders by what the tool point is off, and its trace is drawn."""
+    person.click("Verify")
+    person.page.get_by_test_id("verified").wait_for()
+    person.at_rest()
+    person.picture("wizard_6_verified")
+    said = person.seen("verified")
+    wander = from_mm(float(said.split("wandered ")[1].split(" mm")[0]))
+    off = np.linalg.norm(result.tool_point - hidden.position)
+    assert 0.0 < wander <= 2.0 * np.sin(from_deg(45.0) / 2) * off + from_mm(0.01)
+    assert "as predicted" in said and "drawn ×" in person.seen("trace")
+    assert person.pendant.stage.trace.drawn and not person.pendant.stage.handle.visible
+
+
+def take_away(person, result):
+    """Export and report come as downloads."""
+    with person.page.expect_download() as waiting:
+        person.click("Export")
+    frame = read_frame(waiting.value.path(), "abb_rapid")
+    np.testing.assert_allclose(frame.pose.position, result.tool_point, atol=1e-9)
+    with person.page.expect_download() as waiting:
+        person.click("Report")
+    sheet = waiting.value.path().read_text(encoding="utf-8")
+    assert "Tool calibration: tool 1" in sheet and "Checked by" in sheet
 
 
 def lift_with_the_handle(person):

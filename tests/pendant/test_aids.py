@@ -24,7 +24,7 @@ def status(pendant):
 
 def test_without_aids_no_distance_no_near_view_no_proposal_and_no_handle(open_pendant):
     pendant = open_pendant()
-    nearby = {"Tip", "Side", "Front", "Handle", "Show handle", "Go to the best next touch"}
+    nearby = {"Tip", "Side", "Front", "Handle", "Show handle", "Go to the ghost"}
     assert nearby <= given(pendant) and pendant.stage.handle.visible
     assert MILLIMETRES.search(status(pendant))
     pendant.post(lambda: pendant.allow(Aids(False, False, False, False)))

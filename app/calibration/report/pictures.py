@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
@@ -15,8 +15,11 @@ _INK, _SOFT, _TIP = "#1d2733", "#8a96a3", "#d9622b"
 _AXES = (("X", "#c0392b"), ("Y", "#2e8b57"), ("Z", "#2a62b8"))
 _TRIAD = 42.0
 
+#: Text of a key of the sheet, escaped, with its fields put in.
+Words = Callable[..., str]
 
-def tool_picture(result: ToolCalibration, width: int = 300, height: int = 250) -> str:
+
+def tool_picture(result: ToolCalibration, words: Words, width: int = 300, height: int = 250) -> str:
     """Flange, tool and tip from the side; the 95% region magnified at the tip."""
     point = mm(result.tool_point)
     across = np.array([point[0], point[1], 0.0])
@@ -30,7 +33,7 @@ def tool_picture(result: ToolCalibration, width: int = 300, height: int = 250) -
     origin = np.array([width / 2 - 0.5 * scale * flat[0], height / 2 - 0.5 * scale * flat[1]])
     tip = origin + scale * flat
     parts = [
-        f'<svg viewBox="0 0 {width} {height}" role="img" aria-label="the tool in the flange, seen from the side">',
+        f'<svg viewBox="0 0 {width} {height}" role="img" aria-label="{words("picture_tool")}">',
         f'<rect x="{origin[0] - 26:.1f}" y="{origin[1] - 9:.1f}" width="52" height="9" rx="2" fill="{_SOFT}"/>',
         _line(origin, tip, _INK, 5.0, 0.35),
         *_triad(origin, view, np.eye(3), 0.8),
@@ -47,14 +50,14 @@ def tool_picture(result: ToolCalibration, width: int = 300, height: int = 250) -
             f'<ellipse cx="{tip[0]:.1f}" cy="{tip[1]:.1f}" rx="{a:.1f}" ry="{b:.1f}" fill="{_TIP}" '
             f'fill-opacity="0.18" stroke="{_TIP}" transform="rotate({turn:.1f} {tip[0]:.1f} {tip[1]:.1f})"/>'
         )
-        parts.append(_text(6, height - 6, f"95% region at the tip, drawn {factor:g} times larger", _SOFT, 10))
+        parts.append(_text(6, height - 6, words("picture_region", factor=factor), _SOFT, 10))
     parts.append(f'<circle cx="{tip[0]:.1f}" cy="{tip[1]:.1f}" r="3.5" fill="{_TIP}"/>')
-    parts.append(_text(origin[0] + 30, origin[1] - 12, "flange", _SOFT, 10))
+    parts.append(_text(origin[0] + 30, origin[1] - 12, words("picture_flange"), _SOFT, 10))
     return "".join(parts) + "</svg>"
 
 
 def distance_picture(
-    result: ToolCalibration, left_out: Sequence[LeftOut], width: int = 330, height: int = 190
+    result: ToolCalibration, left_out: Sequence[LeftOut], words: Words, width: int = 330, height: int = 190
 ) -> str:
     """One bar a touch: its distance, and beside it how far the tool point moves without it."""
     distances = mm(result.per_point)
@@ -66,7 +69,7 @@ def distance_picture(
     def y(value: float) -> float:
         return height - bottom - (height - bottom - room) * value / top
 
-    parts = [f'<svg viewBox="0 0 {width} {height}" role="img" aria-label="distance of each touch">']
+    parts = [f'<svg viewBox="0 0 {width} {height}" role="img" aria-label="{words("picture_distance")}">']
     for value in _ticks(top):
         parts.append(_line(np.array([left, y(value)]), np.array([width, y(value)]), _SOFT, 0.5, 0.5))
         parts.append(_text(left - 4, y(value) + 3, f"{value:g}", _SOFT, 9, "end"))
@@ -82,14 +85,14 @@ def distance_picture(
     parts.append(
         f'<line x1="{left}" y1="{mean:.1f}" x2="{width}" y2="{mean:.1f}" stroke="{_TIP}" stroke-dasharray="4 3"/>'
     )
-    parts.append(_text(left, 10, "dark: distance to the touched point [mm], dashed: mean", _INK, 10))
+    parts.append(_text(left, 10, words("picture_dark"), _INK, 10))
     if shifts:
-        parts.append(_text(left, 23, "light: how far the tool point moves without the touch [mm]", _SOFT, 10))
-    parts.append(_text(width / 2, height - 2, "touch", _SOFT, 10, "middle"))
+        parts.append(_text(left, 23, words("picture_light"), _SOFT, 10))
+    parts.append(_text(width / 2, height - 2, words("column_touch"), _SOFT, 10, "middle"))
     return "".join(parts) + "</svg>"
 
 
-def tilt_picture(rotations: np.ndarray, width: int = 190, height: int = 190) -> str:
+def tilt_picture(rotations: np.ndarray, words: Words, width: int = 190, height: int = 190) -> str:
     """Where the flange's Z pointed at each touch, seen along its mean: spread is what determines the tool point."""
     axes = rotations[:, :, 2]
     mean = axes.mean(axis=0)
@@ -103,7 +106,7 @@ def tilt_picture(rotations: np.ndarray, width: int = 190, height: int = 190) -> 
     around = np.arctan2(axes @ b, axes @ a)
     most = max(float(deg(tilts.max())), 15.0)
     centre, scale = np.array([width / 2, height / 2 - 6]), (min(width, height) / 2 - 22) / most
-    parts = [f'<svg viewBox="0 0 {width} {height}" role="img" aria-label="tilt of each touch">']
+    parts = [f'<svg viewBox="0 0 {width} {height}" role="img" aria-label="{words("picture_tilt")}">']
     for ring in (15.0, 30.0, 45.0, 60.0, 90.0):
         if ring <= most + 1.0:
             parts.append(
@@ -115,7 +118,7 @@ def tilt_picture(rotations: np.ndarray, width: int = 190, height: int = 190) -> 
         x, y = centre + scale * tilt * np.array([np.cos(angle), np.sin(angle)])
         parts.append(f'<circle cx="{x:.1f}" cy="{y:.1f}" r="7" fill="{_INK}"/>')
         parts.append(_text(x, y + 3, str(i + 1), "white", 9, "middle"))
-    parts.append(_text(width / 2, height - 3, "tilt of the flange at each touch", _SOFT, 10, "middle"))
+    parts.append(_text(width / 2, height - 3, words("picture_tilt"), _SOFT, 10, "middle"))
     return "".join(parts) + "</svg>"
 
 

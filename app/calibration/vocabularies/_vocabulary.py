@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 from app.calibration.captures import Step
-from app.calibration.vocabularies._chinese import INSTRUCTIONS
+from app.calibration.vocabularies._chinese import INSTRUCTIONS, MODES, STEPS
 
 #: Languages every vocabulary speaks.
 LANGUAGES = ("en", "zh")
@@ -40,6 +40,7 @@ class Vocabulary:
         convention: key of the angle convention its pendants show.
         angle_names: labels of the angles on those pendants.
         words: language -> words.
+        angle_unit: "deg" or "rad", what those pendants show angles in.
     """
 
     key: str
@@ -47,6 +48,7 @@ class Vocabulary:
     convention: str
     angle_names: tuple[str, ...]
     words: Mapping[str, Words]
+    angle_unit: str = "deg"
 
     @property
     def modes(self) -> tuple[str, ...]:
@@ -54,13 +56,15 @@ class Vocabulary:
         return tuple(self.words["en"].modes)
 
     def mode_title(self, key: str, fallback: str, language: str = "en") -> str:
-        """The maker's name of a mode, else `fallback`."""
-        return self._words(language).modes.get(key, fallback)
+        """The maker's name of a mode, else its own name in that language, else `fallback`."""
+        own = MODES.get(key, fallback) if language == "zh" else fallback
+        return self._words(language).modes.get(key, own)
 
     def step(self, step: Step, language: str = "en") -> Step:
         """The same step with its title, and where the language is not English its instruction, restated."""
         number = re.search(r"(\d+)\Z", step.key)
-        template = self._words(language).steps.get(step.role)
+        own = STEPS.get(step.role) if language == "zh" else None
+        template = self._words(language).steps.get(step.role, own)
         title = template.format(n=number.group(1) if number else "").strip() if template else step.title
         instruction = step.instruction
         if language == "zh":

@@ -21,4 +21,5 @@ VOCABULARY = Vocabulary(
             "最大偏差",
         ),
     },
+    angle_unit="rad",
 )

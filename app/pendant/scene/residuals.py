@@ -6,17 +6,16 @@ import numpy as np
 import viser
 
 from app.calibration.result import ToolCalibration
+from app.pendant.scene.exaggeration import factor_for
 from app.units import from_mm, mm
 
 _LONGEST = from_mm(300.0)  # the longest arrow may be this long
-_FACTORS = (1, 2, 5, 10, 20, 50, 100, 200, 500, 1_000, 2_000, 5_000, 10_000)
 _PINK = (200, 30, 100)
 
 
 def magnification(result: ToolCalibration) -> int:
     """The round factor that makes the longest residual clearly visible."""
-    fits = [factor for factor in _FACTORS if factor * result.max <= _LONGEST]
-    return fits[-1] if fits else 1
+    return factor_for(result.max, _LONGEST)
 
 
 class Residuals:

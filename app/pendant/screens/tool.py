@@ -2,28 +2,34 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
 
 from app.calibration.captures import Step
 from app.calibration.tool import METHODS
+from app.calibration.wording import name_of
+from app.errors import TeachframeError
 from app.pendant import html
+from app.pendant.screens._tool.direct import DirectEntry
+from app.pendant.screens._tool.giving import send_frame, send_report, take_frame, titles
 from app.pendant.screens._tool.hand import (
     AXES,
     STROKE,
     TOUCHED,
-    check_turn,
-    go_to_proposal,
     help_along,
     joints_of,
     next_step,
 )
+from app.pendant.screens._tool.next_touch import NextTouch
 from app.pendant.screens._tool.paper import calculate, play_paper_table, play_upload
-from app.pendant.screens._tool.result import light_html, result_html
+from app.pendant.screens._tool.result import light_html, named, result_html
 from app.pendant.screens._tool.rows import Row
+from app.pendant.screens._tool.verifying import Verifying
 from app.pendant.screens._tool.words import Words
+from app.pendant.texts import error_text
 from app.session import SessionState
 from app.session.actions import Accept, Cancel, ChooseMethod, ChooseMode, Delete, Record, Redo, ReRecord, Undo
-from app.session.state import accepted, as_tuple, mode_named
+from app.session.state import DIRECT, accepted, as_tuple, mode_named
 from app.units import mm
 
 if TYPE_CHECKING:
@@ -36,6 +42,7 @@ class _View:
         self._words = Words(pendant)
         self._rows: list[Row] = []
         self._steps: tuple[Step, ...] = ()
+        self._state: SessionState | None = None
         self._build_setup()
         self._build_result()
         self._build_list()
@@ -67,8 +74,9 @@ class _View:
         self._next = gui.add_html("")
         self._assist = gui.add_button(t("tool.assist_touch"), hint=t("tool.assist_hint"), color="gray")
         pendant.clicked(self._assist, self._help)
-        self._propose = gui.add_button(t("tool.propose"), hint=t("tool.propose_hint"), color="gray")
-        pendant.clicked(self._propose, lambda: go_to_proposal(pendant))
+        self._direct = DirectEntry(pendant, self._words)
+        self._next_touch = NextTouch(pendant, self._words)
+        self._refused = gui.add_html("", visible=False)
 
     def _build_result(self) -> None:
         pendant, gui, t = self.pendant, self.pendant.client.gui, self.pendant.t
@@ -81,29 +89,43 @@ class _View:
             self._again = gui.add_button_group(
                 t("tool.then"), (t("tool.verify"), t("tool.again")), visible=False
             )
+            self._verifying = Verifying(pendant)
             self._result = gui.add_html("")
+            self._formats = titles()
+            self._format = gui.add_dropdown(t("tool.format"), tuple(self._formats))
+            give = gui.add_button_group(t("tool.give"), (t("tool.export"), t("tool.report")))
         decide = {t("tool.accept"): self._accept, t("tool.cancel"): self._cancel}
         pendant.chosen(self._decide, lambda label: decide[label]())
-        then = {t("tool.verify"): lambda: check_turn(pendant), t("tool.again"): self._cancel}
+        then = {t("tool.verify"): self._verifying.run, t("tool.again"): self._cancel}
         pendant.chosen(self._again, lambda label: then[label]())
+        gives = {
+            t("tool.export"): lambda: send_frame(pendant, self._formats[self._format.value], self._tool_name),
+            t("tool.report"): lambda: send_report(pendant, self._tool_name),
+        }
+        pendant.chosen(give, lambda label: gives[label]())
 
     def _build_list(self) -> None:
         pendant, gui, t = self.pendant, self.pendant.client.gui, self.pendant.t
         self._folder = gui.add_folder(t("tool.points"))
         self._calculate = gui.add_button(t("tool.calculate"))
-        pendant.clicked(self._calculate, lambda: calculate(pendant))
+        pendant.clicked(self._calculate, self._compute)
         history = gui.add_button_group(t("tool.history"), (t("tool.undo"), t("tool.redo")))
         steps = {t("tool.undo"): self._undo, t("tool.redo"): self._redo}
         pendant.chosen(history, lambda label: steps[label]())
         with gui.add_folder(t("tool.examples")):
             paper = gui.add_button(t("tool.paper"), hint=t("tool.paper_hint"))
             pendant.clicked(paper, lambda: play_paper_table(pendant))
-            upload = gui.add_upload_button(t("tool.upload"), mime_type="text/csv")
+            self._take(gui.add_upload_button(t("tool.upload"), mime_type="text/csv"), play_upload)
+            self._take(gui.add_upload_button(t("tool.take"), hint=t("tool.take_hint")), take_frame)
 
-            @upload.on_upload
-            async def _(event) -> None:
-                file = event.target.value
-                pendant.post(lambda: play_upload(pendant, file.name, file.content))
+    def _take(self, upload: Any, job: Callable[[Pendant, str, bytes], None]) -> None:
+        """What somebody sends goes to `job`; what it refuses stays on the screen."""
+        pendant = self.pendant
+
+        @upload.on_upload
+        async def _(event) -> None:
+            file = event.target.value
+            pendant.post(lambda: self._or_say(lambda: job(pendant, file.name, file.content)))
 
     # What somebody does ----------------------------------------------------------------------------------
 
@@ -131,6 +153,28 @@ class _View:
     def _help(self) -> None:
         step = next_step(self.pendant)
         help_along(self.pendant, self._words.step(step).title if step else "")
+
+    def _compute(self) -> None:
+        if self.pendant.session.state.mode == DIRECT:
+            self._or_say(lambda: self.pendant.do(self._direct.action()))
+        self._or_say(lambda: calculate(self.pendant))
+
+    def _or_say(self, job: Callable[[], object]) -> None:
+        """Does a job; a refusal stays on the screen under its name, the message line has room for one line only."""
+        try:
+            job()
+        except TeachframeError as error:
+            words = error_text(error, self.pendant.language)
+            code = getattr(error, "why", getattr(error, "code", ""))
+            name = name_of(code, self.pendant.language) if code else ""
+            self._refused.content = html.light("red", named(name, words) if name else words, testid="refused")
+            self._refused.visible = True
+            raise
+
+    @property
+    def _tool_name(self) -> str:
+        state = self.pendant.session.state
+        return state.tool.name if state.tool is not None and accepted(state) else self._name.value
 
     def _accept(self) -> None:
         pendant = self.pendant
@@ -177,6 +221,9 @@ class _View:
     # What is shown ---------------------------------------------------------------------------------------
 
     def refresh(self, state: SessionState) -> None:
+        if state is not self._state:
+            self._state = state
+            self._refused.visible = False
         mode = mode_named(state.mode)
         self._mode.value = next(title for title, key in self._modes.items() if key == mode.key)
         self._touches.min, self._touches.max = mode.least_touches, mode.most_touches
@@ -195,23 +242,34 @@ class _View:
             row.refresh(state)
         done, taken = state.result is not None, accepted(state)
         self._result_folder.visible = done
-        for widget in (self._maker, self._mode, self._touches, self._method, self._next, self._calculate):
+        for widget in (self._maker, self._mode, self._next, self._calculate):
             widget.visible = not done
+        self._touches.visible = self._method.visible = not done and mode.most_touches > 0
         step = state.missing[0] if state.missing else None
         touched = step is not None and bool(TOUCHED & set(step.roles))
         self._assist.visible = not done and (touched or (step is not None and step.role in AXES))
-        self._propose.visible = not done and touched and self.pendant.aids.next_touch
         self._name.visible = self._decide.visible = not taken
         self._again.visible = taken
-        self._calculate.disabled = step is not None
+        self._calculate.disabled = not state.captures and state.mode != DIRECT
+        self._folder.visible = not done or bool(state.steps)
+        for part in (self._direct, self._next_touch, self._verifying):
+            part.refresh(state)
         if state.result is not None:
-            self._light.content = light_html(state.result)
+            self._light.content = light_html(state.result, self.pendant.language)
             self._result.content = result_html(self.pendant, state.result)
         else:
-            self._instruct(step)
+            self._instruct(step, state)
 
-    def _instruct(self, step: Step | None) -> None:
+    def numbers(self) -> None:
+        """The arm moved."""
+        self._next_touch.numbers()
+        self._verifying.numbers()
+
+    def _instruct(self, step: Step | None, state: SessionState) -> None:
         t = self.pendant.t
+        if state.mode == DIRECT:
+            self._next.content = html.instruction(t("tool.direct_title"), t("tool.direct_do"))
+            return
         if step is None:
             self._next.content = html.instruction(t("tool.ready"), "")
             return
@@ -226,7 +284,7 @@ class _View:
         return next(label for label, method in self._methods.items() if method == key)
 
     def close(self) -> None:
-        pass
+        self._next_touch.close()
 
 
 class _Tool:

@@ -9,9 +9,10 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from app.phrases import FALLBACK, Texts
+from app.errors import TeachframeError
+from app.phrases import FALLBACK, Phrase, Texts
 
-__all__ = ["FALLBACK", "TEXTS", "has_text", "languages", "text"]
+__all__ = ["FALLBACK", "TEXTS", "error_text", "has_text", "languages", "text"]
 
 TEXTS = Texts(Path(__file__).parent)
 
@@ -29,3 +30,12 @@ def has_text(key: str, language: str) -> bool:
 def text(key: str, language: str = FALLBACK, **details: Any) -> str:
     """The text of this key; raises KeyError where no language file has it."""
     return TEXTS.text(key, language, **details)
+
+
+def error_text(error: TeachframeError, language: str = FALLBACK) -> str:
+    """What an error says, in this language where it can."""
+    key = f"refused.{getattr(error, 'code', '')}"
+    if has_text(key, language):
+        return text(key, language, **getattr(error, "details", {}))
+    said = getattr(error, "said", None)
+    return said.text(language) if isinstance(said, Phrase) else str(error)

@@ -11,7 +11,7 @@ from app.calibration.tool import METHODS
 from app.errors import UnknownNameError
 from app.session.actions import Cancel, Comment, Delete, LoadPoints, Record, ReRecord
 from app.session.points import loaded_points
-from app.session.refusals import refusal
+from app.session.refusals import enough_touches, refusal
 from app.session.state import SessionState, mode_named
 from app.session.steps.setup import checked_joints
 
@@ -65,9 +65,9 @@ def _comment(state: SessionState, action: Comment) -> SessionState:
 
 
 def _cancel(state: SessionState, action: Cancel) -> SessionState:
-    if not state.captures and state.result is None:
+    if not state.captures and state.result is None and state.entered is None:
         raise refusal("nothing_to_cancel")
-    return state.but(captures={}, comments={}, result=None, source=None)
+    return state.but(captures={}, comments={}, result=None, source=None, entered=None)
 
 
 def _load(state: SessionState, action: LoadPoints) -> SessionState:
@@ -82,6 +82,8 @@ def _load(state: SessionState, action: LoadPoints) -> SessionState:
         raise refusal("unknown", reason=f"unknown estimator {action.method!r}")
     points = loaded_points(action)
     touches = sum("touch" in capture.roles for capture in points.captures)
+    if touches < mode.least_touches:
+        enough_touches(touches)
     if not mode.least_touches <= touches <= mode.most_touches:
         raise refusal(
             "touches", mode=mode.title, least=mode.least_touches, most=mode.most_touches, given=touches

@@ -2,20 +2,30 @@
 
 from __future__ import annotations
 
-from app.errors import TeachframeError
+from app.errors import ActionRefusedError, TeachframeError
 from app.session.actions import Accept, Calculate
-from app.session.refusals import refusal
+from app.session.refusals import cannot_solve, enough_touches, refusal
 from app.session.solving import solve
 from app.session.state import SessionState, Tool
+
+#: The mode in which one touch is enough.
+REFERENCE = "reference"
 
 
 def _calculate(state: SessionState, action: Calculate) -> SessionState:
     if state.missing:
+        touches = sum("touch" in capture.roles for capture in state.captures.values())
+        if touches and any("touch" in step.roles for step in state.missing) and state.mode != REFERENCE:
+            enough_touches(touches)
         raise refusal("missing", titles=", ".join(step.title for step in state.missing))
     try:
         return state.but(result=solve(state))
-    except TeachframeError as error:  # too alike, all about one axis: the sentence says what to do next
-        raise refusal("cannot_solve", reason=str(error)) from None
+    except ActionRefusedError:
+        raise
+    except (
+        TeachframeError
+    ) as error:  # all about one axis, parallel strokes: the sentence says what to do next
+        raise cannot_solve(error) from None
 
 
 def _accept(state: SessionState, action: Accept) -> SessionState:

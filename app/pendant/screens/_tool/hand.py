@@ -1,4 +1,4 @@
-"""What the program does for a careful hand: touch, stroke, the proposed touch, the check turn."""
+"""What the program does for a careful hand: touch and stroke; and what may be hit on the way."""
 
 from __future__ import annotations
 
@@ -7,12 +7,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from app.calibration.captures import Capture, Step, of_role
-from app.calibration.next_touch import propose
-from app.calibration.verify import verify
-from app.kinematics import CollisionWorld, solve_ik
+from app.kinematics import CollisionWorld, RobotModel, solve_ik
 from app.pendant.scene.cell import cell_shapes
 from app.pendant.scene.held_tool import held_shapes
-from app.simulation.world import default_tool
+from app.simulation.world import World
 from app.units import from_mm, mm
 
 if TYPE_CHECKING:
@@ -22,7 +20,6 @@ STROKE = from_mm(150.0)
 AXES = {"x": 0, "y": 1, "z": 2}
 #: Roles whose point is the spike: these the hand can touch.
 TOUCHED = frozenset({"touch", "origin", "known"})
-_EVERY = 4  # of the poses of a check turn, each so many-th is shown
 
 
 def next_step(pendant: Pendant) -> Step | None:
@@ -50,61 +47,9 @@ def help_along(pendant: Pendant, title: str) -> None:
     pendant.go(found.q, lambda: pendant.say("info", words))
 
 
-def go_to_proposal(pendant: Pendant) -> None:
-    """Goes to the orientation from which the next touch tells most; the tip is brought to the spike by the hand."""
-    state = pendant.session.state
-    touches = of_role(state.ordered, "touch")
-    rotations = np.array([c.T_base_flange.rotation for c in touches]).reshape(-1, 3, 3)
-    proposal = propose(
-        rotations,
-        tool=default_tool(pendant.model).position,
-        spike=pendant.world.p_base_spike_drawn,
-        touches=state.touches,
-        reference=None if len(rotations) else pendant.model.forward(pendant.q).rotation,
-        robot=pendant.model,
-        q_near=pendant.q,
-        collides=collisions(pendant).check,
-    )
-    if proposal.q is None:
-        return
-    if not np.isfinite(proposal.after):
-        words = pendant.t("message.proposed_open")
-    else:
-        known = f"{mm(proposal.now):.2f} mm" if np.isfinite(proposal.now) else "-"
-        words = pendant.t("message.proposed", now=known, after=f"{mm(proposal.after):.2f} mm")
-    pendant.go(proposal.q, lambda: pendant.say("info", words))
-
-
-def check_turn(pendant: Pendant) -> None:
-    """Turns about the tool point that was found and says how far the tip wanders."""
-    state = pendant.session.state
-    if state.result is None:
-        return
-    world, model = pendant.world, pendant.model
-
-    def tip(flange, q) -> np.ndarray:
-        return world.tip(q).position
-
-    found = verify(state.result.result, model.forward(pendant.q), tip, robot=model, q_start=pendant.q)
-    if found.joints is None or not len(found.joints):
-        pendant.say("warning", pendant.t("message.not_reached", reason=found.stopped))
-        return
-    inside = not np.isfinite(found.expected) or found.wander <= found.expected
-    key = "message.verified" if inside else "message.verified_not"
-    words = pendant.t(key, mm=f"{mm(found.wander):.2f}", most=f"{mm(found.expected):.2f}")
-    stops = [*found.joints[::_EVERY], found.joints[-1]]
-
-    def arrived(number: int) -> None:
-        if number < 0:
-            pendant.say("good" if inside else "warning", words)
-
-    pendant.tour(stops, arrived, rest=0.0)
-
-
-def collisions(pendant: Pendant) -> CollisionWorld:
-    """The arm, its tool and the cell, for asking what would be hit."""
-    robot = pendant.model
-    return CollisionWorld(robot, tool_shapes=held_shapes(robot), obstacles=cell_shapes(pendant.world))
+def collisions(robot: RobotModel, world: World) -> CollisionWorld:
+    """The arm, its tool and the cell, for asking what would be hit; a fresh one, so any thread may ask."""
+    return CollisionWorld(robot, tool_shapes=held_shapes(robot), obstacles=cell_shapes(world))
 
 
 def joints_of(pendant: Pendant, capture: Capture) -> np.ndarray | None:

@@ -6,9 +6,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from app.calibration.quality.region import ellipsoid
 from app.calibration.solving import Solved
+from app.calibration.wording import name_of
 from app.geometry import CONVENTIONS
 from app.pendant import html
+from app.pendant.scene.region import cone_factor, region_factor
 from app.pendant.scene.residuals import magnification
 from app.pendant.screens._tool.words import Words
 from app.units import deg, mm
@@ -17,10 +20,14 @@ if TYPE_CHECKING:
     from app.pendant.client import Pendant
 
 
-def light_html(solved: Solved) -> str:
+def light_html(solved: Solved, language: str) -> str:
     """The traffic light with its reason and what to do next."""
-    reason = solved.light.reason
-    return html.light(solved.light.colour, f"{reason[:1].upper()}{reason[1:]}. {solved.light.action}.")
+    return html.light(solved.light.colour, solved.light.sentence(language))
+
+
+def named(name: str, sentence: str) -> str:
+    """What a check found, under the check's name."""
+    return f"{name[:1].upper()}{name[1:]}: {sentence}"
 
 
 def result_html(pendant: Pendant, solved: Solved) -> str:
@@ -43,25 +50,23 @@ def _tool(pendant: Pendant, solved: Solved) -> str:
     ]
     form = CONVENTIONS[pendant.convention]
     numbers = form.from_rotation(result.T_flange_tool.rotation)
-    shown = (
-        [f"{v + 0.0:.2f}°" for v in np.round(deg(numbers), 2)]
-        if form.angular
-        else [f"{v:.5f}" for v in numbers]
-    )
-    names = " ".join(c.upper() if form.angular else c for c in form.columns)
+    words = Words(pendant)
+    if form.angular and not words.radians(form.key):
+        shown = [f"{v + 0.0:.2f}°" for v in np.round(deg(numbers), 2)]
+    else:
+        shown = [f"{v + 0.0:.5f}" for v in np.round(numbers, 5)]
+    names = " ".join(words.angles(form.key)) + (" [rad]" if words.radians(form.key) else "")
     out = html.table(
         rows, head=(t("result.axis"), t("result.value"), t("result.sigma")), testid="tool-point"
     ) + html.table([(names, "  ".join(shown))], testid="tool-angles")
+    if len(result.residual_vectors) and result.sigma > 0:
+        sizes = " × ".join(f"{v:.2f}" for v in mm(ellipsoid(result).semi_axes))
+        words = t("result.region", sizes=sizes, factor=region_factor(result))
+        out += html.paragraph(words, faint=True, testid="region")
     for cone in result.cones:
-        out += html.paragraph(
-            t(
-                "result.cone",
-                axis=cone.axis.upper(),
-                mm=f"{mm(cone.stroke):.0f}",
-                deg=f"{deg(cone.half_angle):.2f}",
-            ),
-            faint=True,
-        )
+        known = {"axis": cone.axis.upper(), "deg": f"{deg(cone.half_angle):.2f}", "factor": cone_factor(cone)}
+        key = "result.cone" if cone.stroke > 0 else "result.cone_seen"
+        out += html.paragraph(t(key, mm=f"{mm(cone.stroke):.0f}", **known), faint=True, testid="cone")
     return out
 
 
@@ -78,7 +83,8 @@ def _figures(pendant: Pendant, solved: Solved) -> str:
     rows = [
         (mean, length(result.mean)),
         (largest, length(result.max)),
-        (t("result.noise"), length(result.sigma) if result.dof > 0 else "?"),
+        (t("result.rms"), length(result.rms)),
+        (t("result.noise", dof=result.dof), length(result.sigma) if result.dof > 0 else "?"),
         (t("result.delta"), t("result.mm", value=f"{mm(result.delta):.5f}")),
         (t("result.condition"), f"{result.condition:.2f}"),
     ]
@@ -92,21 +98,26 @@ def _touches(pendant: Pendant, solved: Solved) -> str:
     left = {entry.index: entry for entry in solved.left_out}
     rows = [
         (
-            str(i + 1),
+            t("result.worst", touch=i + 1) if i == result.worst else str(i + 1),
             f"{mm(float(miss)):.3f}",
-            f"{mm(left[i].shift):.2f} mm" if i in left else "-",
+            f"{mm(left[i].shift):.2f}" if i in left else "-",
+            f"{mm(left[i].heldout):.2f}" if i in left else "-",
         )
         for i, miss in enumerate(result.per_point)
     ]
+    head = (t("result.touch"), t("result.miss"), t("result.shift"), t("result.heldout"))
     return html.table(
-        rows, head=(t("result.touch"), t("result.miss"), t("result.shift")), testid="touches"
+        rows, head=head, testid="touches", widths=("22%", "22%", "28%", "28%")
     ) + html.paragraph(t("result.arrows", factor=magnification(result)), faint=True, testid="arrows")
 
 
 def _remarks(pendant: Pendant, solved: Solved) -> list[tuple[str, str]]:
     """Warnings first, then what the written digits explain."""
     t, result, effect = pendant.t, solved.result, solved.rounding
-    out = [("red" if w.severe else "yellow", str(w)) for w in result.warnings]
+    out = [
+        ("red" if w.severe else "yellow", named(name_of(w.code, pendant.language), w.said(pendant.language)))
+        for w in result.warnings
+    ]
     sigma = mm(effect.sigma_tool)
     if len(result.residual_vectors) and sigma.max() >= 5e-4:
         x, y, z = (f"{v:.2f}" for v in sigma)

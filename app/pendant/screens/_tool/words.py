@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from app.calibration.captures import Mode, Step
 from app.calibration.modes import modes
 from app.calibration.vocabularies import Vocabulary, vocabularies, vocabulary
+from app.geometry import CONVENTIONS
 
 if TYPE_CHECKING:
     from app.pendant.client import Pendant
@@ -36,16 +37,16 @@ class Words:
         return {self._pendant.t("tool.own_words"): ""} | {v.title: k for k, v in vocabularies().items()}
 
     def modes(self) -> dict[str, str]:
-        """Title -> key of the modes the wizard can walk through, those the maker has a name for first."""
+        """Title -> key of all modes, those the maker has a name for first."""
         words = self.vocabulary
         first = words.modes if words else ()
-        walkable = {key: mode for key, mode in modes().items() if mode.default_touches > 0}
-        ordered = [k for k in first if k in walkable] + [k for k in walkable if k not in first]
+        known = modes()
+        ordered = [k for k in first if k in known] + [k for k in known if k not in first]
         found: dict[str, str] = {}
         for key in ordered:
-            title = self.mode(walkable[key])
+            title = self.mode(known[key])
             if title in found:  # two modes under one name of the maker's: say which
-                title = f"{title} ({walkable[key].title})"
+                title = f"{title} ({known[key].title})"
             found[title] = key
         return found
 
@@ -53,6 +54,19 @@ class Words:
         """A mode's name."""
         words = self.vocabulary
         return words.mode_title(mode.key, mode.title, self._pendant.language) if words else mode.title
+
+    def angles(self, key: str) -> tuple[str, ...]:
+        """What the angles of a convention are called: the maker's labels where it is the maker's convention."""
+        words = self.vocabulary
+        if words is not None and words.convention == key:
+            return words.angle_names
+        form = CONVENTIONS[key]
+        return tuple(c.upper() for c in form.columns) if form.angular else form.columns
+
+    def radians(self, key: str) -> bool:
+        """True where the maker chosen shows this convention in radians."""
+        words = self.vocabulary
+        return words is not None and words.convention == key and words.angle_unit == "rad"
 
     def step(self, step: Step) -> Step:
         """A step with its title and instruction restated."""

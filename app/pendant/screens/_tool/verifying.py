@@ -1,0 +1,127 @@
+"""After accepting: the turn about the new tool point, and the trace of the true tip."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from app.calibration.verify import Verification, verify
+from app.pendant import html
+from app.pendant.scene.trace import trace_factor
+from app.pendant.screens._tool.hand import collisions, joints_of
+from app.session import SessionState
+from app.session.state import accepted
+from app.units import mm
+
+if TYPE_CHECKING:
+    from app.pendant.client import Pendant
+
+_EVERY = 4  # of the poses of the turn, each so many-th is shown
+_MOVED = 1e-3  # rad or m
+
+
+class Verifying:
+    """The turn and what it showed.
+
+    Args:
+        pendant: where it is shown.
+    """
+
+    def __init__(self, pendant: Pendant):
+        self._pendant = pendant
+        self._text = pendant.client.gui.add_html("", visible=False)
+        self._of: object = None
+        self._done = False
+        self.found: Verification | None = None
+
+    def run(self) -> None:
+        """Turns about the tool point where a touch was recorded; the arm shows it, the trace grows with it."""
+        pendant = self._pendant
+        state = pendant.session.state
+        if state.result is None:
+            return
+        solved, world, model = state.result, pendant.world, pendant.model
+        touched = [c for c in state.ordered if "touch" in c.roles]
+        starts = [q for c in touched[::-1] if (q := joints_of(pendant, c)) is not None]
+
+        def tip(flange, q) -> np.ndarray:
+            return world.tip(q).position
+
+        def work() -> Verification | None:
+            hits = collisions(model, world).check
+            best: Verification | None = None
+            for start in [*starts, np.array(pendant.q)]:
+                found = verify(solved.result, model.forward(start), tip, robot=model, q_start=start)
+                free = found.joints is not None and not any(hits(q) for q in found.joints[::_EVERY])
+                if not found.stopped and free:
+                    return found
+                if best is None or len(found.trace) > len(best.trace):
+                    best = found
+            return best
+
+        def done(found: Verification | None) -> None:
+            if found is None or found.joints is None or not len(found.joints):
+                reason = pendant.why(found.hindered) if found is not None and found.hindered else ""
+                pendant.say("warning", pendant.t("message.not_reached", reason=reason))
+                return
+            self.found, self._of, self._done = found, solved, False
+            self._text.visible = False
+            pendant.stage.view("close")
+            stops = [*found.joints[::_EVERY], found.joints[-1]]
+            pendant.tour(stops, lambda number: self._arrived(found, number), rest=0.0)
+
+        pendant.background(work, done)
+
+    def refresh(self, state: SessionState) -> None:
+        """Takes the trace away with the result it belongs to."""
+        if self.found is not None and (state.result is not self._of or not accepted(state)):
+            self.found = None
+            self._text.visible = False
+            self._pendant.stage.show_trace(None, state)
+
+    def numbers(self) -> None:
+        """The arm moved: whoever moves it on wants to see tool and handle again; what was found stays written."""
+        pendant, found = self._pendant, self.found
+        if found is None or found.joints is None or pendant.worker.running("move"):
+            return
+        if self._done and float(np.abs(pendant.q - found.joints[-1]).max()) > _MOVED:
+            self._done = False
+            pendant.stage.show_trace(None, pendant.session.state)
+
+    def _arrived(self, found: Verification, number: int) -> None:
+        pendant = self._pendant
+        if found is not self.found:
+            return
+        if number >= 0:
+            until = min(number * _EVERY, len(found.trace) - 1)
+            pendant.stage.show_trace(found, pendant.session.state, until)
+            return
+        pendant.stage.show_trace(found, pendant.session.state)
+        self._done = True
+        words = self._sentence(found)
+        good = found.inside is not False and not found.stopped
+        pendant.say("good" if good else "warning", words)
+        self._text.content = html.light("green" if good else "yellow", words, testid="verified")
+        self._text.content += html.paragraph(self._legend(found), faint=True, testid="trace")
+        self._text.visible = True
+
+    def _sentence(self, found: Verification) -> str:
+        t = self._pendant.t
+        key = {None: "verified", True: "verified_inside", False: "verified_not"}[found.inside]
+        words = t(f"message.{key}", mm=f"{mm(found.wander):.2f}", most=f"{mm(found.expected):.2f}")
+        if found.hindered is not None:
+            words += " " + t("message.verified_stopped", reason=self._pendant.why(found.hindered))
+        return words
+
+    def _legend(self, found: Verification) -> str:
+        return self._pendant.t(
+            "tool.trace",
+            factor=trace_factor(found),
+            rms=f"{mm(found.rms):.2f}",
+            axes=" / ".join(
+                f"{mm(float(np.max(away[found.axes == axis], initial=0.0))):.2f}"
+                for away in [np.linalg.norm(found.trace - found.trace[0], axis=1)]
+                for axis in range(3)
+            ),
+        )
