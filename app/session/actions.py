@@ -6,6 +6,8 @@ replayed where the file no longer is.
 
 from __future__ import annotations
 
+from typing import Literal
+
 import msgspec
 
 
@@ -34,9 +36,11 @@ class ChooseMethod(Action, frozen=True, tag="choose_method"):
 
 
 class Move(Action, frozen=True, tag="move"):
-    """The arm stands at `q`: written when a motion ends, not while it lasts."""
+    """The arm stands at `q`: written when a motion ends, not while it lasts. In an exercise the way there is kept too,
+    as joint positions a tenth of a second apart."""
 
     q: tuple[float, ...]
+    path: tuple[tuple[float, ...], ...] = ()
 
 
 class Record(Action, frozen=True, tag="record"):
@@ -132,6 +136,60 @@ class Redo(Action, frozen=True, tag="redo"):
     """Does again what was taken back last."""
 
 
+class Begin(Action, frozen=True, tag="begin"):
+    """An exercise begins: its arm, its wizard, nothing recorded.
+
+    Args:
+        exercise: its key.
+        seed: draws what is hidden; it never leaves the server before the end.
+        at: when [s since 1970].
+        robot: the arm.
+        mode, touches: the wizard.
+        tools: tools the controller has, the last one active: name, and T_flange_tool row by row [m].
+        tracker: the two-robot procedure instead of the tool wizard; with fixed points or without.
+    """
+
+    exercise: str
+    seed: int
+    at: float
+    robot: str
+    mode: str
+    touches: int | None = None
+    tools: tuple[tuple[str, tuple[float, ...]], ...] = ()
+    tracker: Literal["", "nests", "bare"] = ""
+
+
+class Tracked(Action, frozen=True, tag="tracked"):
+    """The laser tracker measured a point [m] for the step at hand of the two-robot procedure."""
+
+    point: tuple[float, float, float]
+    angle: float = 0.0
+    name: str = ""
+    sigma: float = 0.0
+
+
+class TrackerNext(Action, frozen=True, tag="tracker_next"):
+    """On to the procedure's next step."""
+
+
+class TrackerUndo(Action, frozen=True, tag="tracker_undo"):
+    """Takes the last measured point back."""
+
+
+class Finish(Action, frozen=True, tag="finish"):
+    """The exercise ends.
+
+    Args:
+        answer: what the trainee says is wrong; empty where nothing was asked.
+        number: of the touch or the joint it is about; 0 where none was named.
+        given_up: nothing is scored.
+    """
+
+    answer: str = ""
+    number: int = 0
+    given_up: bool = False
+
+
 AnyAction = (
     ChooseRobot
     | ChooseMode
@@ -148,4 +206,9 @@ AnyAction = (
     | LoadPoints
     | Undo
     | Redo
+    | Begin
+    | Tracked
+    | TrackerNext
+    | TrackerUndo
+    | Finish
 )

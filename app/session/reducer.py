@@ -6,11 +6,25 @@ from collections.abc import Callable
 from functools import cache
 
 from app import catalog
-from app.session.actions import AnyAction, ChooseRobot, Move, Redo, Undo
+from app.session.actions import (
+    AnyAction,
+    Begin,
+    ChooseRobot,
+    Finish,
+    Move,
+    Redo,
+    Tracked,
+    TrackerNext,
+    TrackerUndo,
+    Undo,
+)
 from app.session.refusals import refusal
 from app.session.state import SessionState
 
 STEPS = "app.session.steps"
+
+#: No change of the list: what Undo takes back stays the same.
+_ASIDE = Move | Tracked | TrackerNext | TrackerUndo | Finish
 
 Reducer = Callable[[SessionState, AnyAction], SessionState]
 
@@ -34,9 +48,9 @@ def reduce(state: SessionState, action: AnyAction) -> SessionState:
     if isinstance(action, Redo):
         return _redo(state)
     after = _reducers()[type(action)](state, action).but(count=state.count + 1)
-    if isinstance(action, Move):  # moving is no change of the list: what Undo takes back stays the same
+    if isinstance(action, _ASIDE):
         return after
-    if isinstance(action, ChooseRobot):  # another arm's points mean nothing here
+    if isinstance(action, ChooseRobot | Begin):  # another arm's points mean nothing here
         return after.but(before=None, after=None)
     return after.but(before=state, after=None)
 
@@ -44,10 +58,10 @@ def reduce(state: SessionState, action: AnyAction) -> SessionState:
 def _undo(state: SessionState) -> SessionState:
     if state.before is None:
         raise refusal("nothing_to_undo")
-    return state.before.but(q=state.q, count=state.count + 1, after=state)
+    return state.before.but(q=state.q, running=state.running, count=state.count + 1, after=state)
 
 
 def _redo(state: SessionState) -> SessionState:
     if state.after is None:
         raise refusal("nothing_to_redo")
-    return state.after.but(q=state.q, count=state.count + 1, before=state)
+    return state.after.but(q=state.q, running=state.running, count=state.count + 1, before=state)

@@ -26,6 +26,9 @@ _SENTENCES = {
     "nothing_to_cancel": "nothing is recorded",
     "no_name": "the tool needs a name",
     "other_robot": "the points were recorded with another arm",
+    "exercise_runs": "an exercise is being done; finish it or give it up first",
+    "no_exercise": "no exercise is being done",
+    "no_tracker": "this exercise has no laser tracker",
     "unknown": "{reason}",
 }
 

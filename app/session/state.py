@@ -11,11 +11,12 @@ from typing import Any
 import numpy as np
 
 from app import catalog
+from app.calibration.base.wizard import BaseWizard
 from app.calibration.captures import Capture, Mode, Step
 from app.calibration.solving import Solved
 from app.geometry import Pose
 from app.kinematics import RobotModel, load_robot, robot_names
-from app.session.actions import Enter, LoadPoints
+from app.session.actions import Begin, Enter, LoadPoints
 
 MODES = "app.calibration.modes"
 FIRST_ROBOT = "jby50"
@@ -30,6 +31,21 @@ class Tool:
 
     name: str
     T_flange_tool: Pose
+
+
+@dataclass(frozen=True, eq=False)
+class Running:
+    """An exercise that is being done.
+
+    Args:
+        begun: how it began.
+        records: points recorded so far, those recorded again counted again; Undo does not take one back.
+        wizard: the two-robot procedure, where that is the exercise.
+    """
+
+    begun: Begin
+    records: int = 0
+    wizard: BaseWizard | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,6 +64,7 @@ class SessionState:
         tools: accepted tools, the last one is active.
         source: the file the points came from; None where they were recorded here.
         entered: the tool frame typed in for the mode `direct`.
+        running: the exercise that is being done.
         count: actions so far.
         before: what Undo goes back to.
         after: what Redo goes forward to.
@@ -64,6 +81,7 @@ class SessionState:
     tools: tuple[Tool, ...] = ()
     source: LoadPoints | None = None
     entered: Enter | None = None
+    running: Running | None = None
     count: int = 0
     before: SessionState | None = field(default=None, repr=False)
     after: SessionState | None = field(default=None, repr=False)

@@ -45,7 +45,14 @@ def _captured(state: SessionState, step: Step, q: tuple[float, ...] | None) -> S
     angles = np.array(joints)
     angles.flags.writeable = False
     capture = Capture(step.key, step.role, state.model.forward(angles), angles, row)
-    return state.but(q=joints, captures={**state.captures, step.key: capture}, result=None, source=None)
+    running = state.running and replace(state.running, records=state.running.records + 1)
+    return state.but(
+        q=joints,
+        captures={**state.captures, step.key: capture},
+        result=None,
+        source=None,
+        running=running,
+    )
 
 
 def _delete(state: SessionState, action: Delete) -> SessionState:
@@ -72,6 +79,8 @@ def _cancel(state: SessionState, action: Cancel) -> SessionState:
 
 def _load(state: SessionState, action: LoadPoints) -> SessionState:
     """Rows are given to the wizard's steps in the order in which they ask for that role."""
+    if state.running is not None:
+        raise refusal("exercise_runs")
     if action.robot and action.robot != state.robot:
         raise refusal("other_robot")
     try:

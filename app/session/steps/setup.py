@@ -17,6 +17,8 @@ LIMIT_SLACK = 1e-6
 
 
 def _choose_robot(state: SessionState, action: ChooseRobot) -> SessionState:
+    if state.running is not None:
+        raise refusal("exercise_runs")
     try:
         fresh = first_state(action.robot, state.mode)
     except UnknownNameError as error:
@@ -24,7 +26,8 @@ def _choose_robot(state: SessionState, action: ChooseRobot) -> SessionState:
     return fresh.but(touches=state.touches, method=state.method)
 
 
-def _choose_mode(state: SessionState, action: ChooseMode) -> SessionState:
+def choose_mode(state: SessionState, action: ChooseMode) -> SessionState:
+    """Another wizard, or another number of touches; raises ActionRefusedError."""
     try:
         mode = mode_named(action.mode)
     except UnknownNameError as error:
@@ -69,7 +72,7 @@ def _move(state: SessionState, action: Move) -> SessionState:
 
 ACTIONS = {
     ChooseRobot: _choose_robot,
-    ChooseMode: _choose_mode,
+    ChooseMode: choose_mode,
     ChooseMethod: _choose_method,
     Move: _move,
 }
