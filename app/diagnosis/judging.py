@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -11,6 +12,9 @@ from app.diagnosis.result import Judged, Quality
 from app.kinematics import RobotModel
 from app.kinematics.dynamics import PER_LINK
 from app.recordings import Table
+
+if TYPE_CHECKING:
+    from app.diagnosis.motion.sampling import Samples
 
 BARE, WITH, MASSES = "description alone", "with the model", "with the model's masses only"
 
@@ -52,18 +56,24 @@ def _static(
 
 def _motion(table: Table, robot: RobotModel, model: SavedModel) -> dict[str, Quality]:
     from app.diagnosis.motion.engine import ready
-    from app.diagnosis.motion.library import laws
     from app.diagnosis.motion.sampling import take_samples
 
     log, motion, _ = ready(table, robot)
     samples = take_samples(log, robot, motion, log.y, lambda share, what: None)
+    return {what: _torque(r, samples.usable) for what, r in torque_residuals(samples, robot, model).items()}
+
+
+def torque_residuals(samples: Samples, robot: RobotModel, model: SavedModel) -> dict[str, np.ndarray]:
+    """What is in the simulation -> (M, n) torque beyond it [Nm], the bare description first."""
+    from app.diagnosis.motion.library import laws
+
     residual = samples.y.copy()
-    steps = {BARE: _torque(residual, samples.usable)}
+    steps = {BARE: samples.y}
     masses = np.array(model.nuisance.get("inertial", ()), float)
     if len(masses) == PER_LINK * robot.joint_count:
         for j in range(robot.joint_count):
             residual[:, j] -= samples.regressor[:, :, j] @ masses
-        steps[MASSES] = _torque(residual, samples.usable)
+        steps[MASSES] = residual.copy()
     for effect in model.effects:
         law = laws().get(effect.effect)
         if law is None or not _lasting(effect):
@@ -73,8 +83,7 @@ def _motion(table: Table, robot: RobotModel, model: SavedModel) -> dict[str, Qua
             residual[:, int(effect.where["joint"]) - 1] -= added
         else:
             residual -= added
-    steps[WITH] = _torque(residual, samples.usable)
-    return steps
+    return {**steps, WITH: residual}
 
 
 def _lasting(effect: ModelEffect) -> bool:

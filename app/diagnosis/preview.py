@@ -1,4 +1,4 @@
-"""A recording beside the bare description, before anybody has searched: what the Compare screen shows first."""
+"""A recording beside the simulation before anybody has searched: what the Compare screen shows first."""
 
 from __future__ import annotations
 
@@ -7,52 +7,67 @@ from types import SimpleNamespace
 import numpy as np
 
 from app.diagnosis.dispatch import check_joints, family, kind_of
+from app.diagnosis.model import SavedModel
 from app.diagnosis.result import Evidence
+from app.errors import InputError
 from app.kinematics import RobotModel
 from app.recordings import Table
 
 
-def preview(table: Table, robot: RobotModel) -> Evidence:
-    """Evidence with `before` only (`after` is the same): base and tool fitted, nothing searched for.
+def preview(table: Table, robot: RobotModel, model: SavedModel | None = None) -> Evidence:
+    """Evidence without a search: `before` is the bare description, `after` has the given model in it.
 
-    A motion recording shows what was measured; what the description predicts needs the search's own filters, so its
-    residuals are NaN until then.
+    Without a model both are the same. Touch and tracker recordings have base and tool fitted; joint logs nothing.
 
     Raises:
-        InputError, DegenerateGeometryError: the recording cannot be used.
+        InputError, DegenerateGeometryError: the recording cannot be used, or the model is of another kind.
     """
     kind, _ = kind_of(table)
     check_joints(table, robot)
-    return _motion(table, robot) if family(kind) == "motion" else _static(table, robot)
+    if model is not None and model.kind != family(kind):
+        raise InputError(
+            f"the model was learnt from {model.kind} recordings and this one is of kind {kind}",
+            file=table.path,
+            expected=f"a model of kind {family(kind)}",
+        )
+    return (_motion if family(kind) == "motion" else _static)(table, robot, model)
 
 
-def _static(table: Table, robot: RobotModel) -> Evidence:
-    from app.diagnosis.static.diagnose import plain_fit
+def _static(table: Table, robot: RobotModel, model: SavedModel | None) -> Evidence:
     from app.diagnosis.static.evidence import evidence_of
+    from app.diagnosis.static.models import held_terms, undone
+    from app.diagnosis.static.plain import plain_fit
     from app.diagnosis.static.reading import read_static
 
     recording = read_static(table, robot)
-    plain = plain_fit(recording, ())
-    nothing = SimpleNamespace(
-        before=plain, found=SimpleNamespace(fitted=plain), outliers=np.zeros(recording.size, bool)
+    before = after = plain_fit(recording, ())
+    if model is not None:
+        told = undone(model, recording, robot)
+        after = plain_fit(told, held_terms(model, told.situation, told.file))
+    outcome = SimpleNamespace(
+        before=before, found=SimpleNamespace(fitted=after), outliers=np.zeros(recording.size, bool)
     )
-    return evidence_of(recording, nothing)
+    return evidence_of(recording, outcome)
 
 
-def _motion(table: Table, robot: RobotModel) -> Evidence:
-    from app.diagnosis.motion.log import read_log
+def _motion(table: Table, robot: RobotModel, model: SavedModel | None) -> Evidence:
+    from app.diagnosis.judging import WITH, torque_residuals
+    from app.diagnosis.motion.engine import ready
+    from app.diagnosis.motion.sampling import take_samples
 
-    log = read_log(table, robot)
-    unknown = np.full_like(log.y, np.nan)
+    log, motion, _ = ready(table, robot)
+    samples = take_samples(log, robot, motion, log.y, lambda share, what: None)
+    after = samples.y if model is None else torque_residuals(samples, robot, model)[WITH]
+    centre = samples.index.reshape(-1, samples.window)[:, samples.window // 2]
     return Evidence(
-        rows=log.rows,
-        measured=log.y,
-        before=unknown,
-        after=unknown,
+        rows=log.rows[centre],
+        measured=samples.y + samples.pool(samples.state.torque),
+        before=samples.y,
+        after=after,
         components=tuple(f"joint {j + 1}" for j in range(robot.joint_count)),
         unit="Nm",
-        q=log.q,
+        q=samples.pool(samples.state.q),
         drivers={},
-        kept=np.ones(len(log.t), bool),
-        t=log.t,
+        kept=np.asarray(samples.usable.any(axis=1)),
+        t=samples.t,
     )

@@ -17,7 +17,7 @@ from app.pendant.aids import Aids
 from app.pendant.dragging import Dragging
 from app.pendant.jogging import Jogging
 from app.pendant.layout import Layout
-from app.pendant.loaded import with_touched_point
+from app.pendant.loaded import cell_of
 from app.pendant.moving import Moving
 from app.pendant.page import Page
 from app.pendant.stage import Stage
@@ -97,17 +97,17 @@ class Pendant(Moving):
         state = self.session.state
         if as_tuple(self.q) != state.q:
             self.show(np.array(state.q))
-        if state.source is not self._source:
+        if (state.source, state.cell_model) != self._source:
             self.world = self._own_world()
             self.stage.cell(self.world)
         self.stage.refresh(state)
         self.page.refresh(state)
 
     def _own_world(self) -> World:
-        """The cell of this arm; with points from a file, the spike stands where that file touched it."""
-        world = self._world_of(self.model)
-        self._source = self.session.state.source
-        return world if self._source is None else with_touched_point(world, self.session.state)
+        """The cell of this arm, as the session has it."""
+        state = self.session.state
+        self._source = (state.source, state.cell_model)
+        return cell_of(self._world_of(self.model), state)
 
     def rebuild(self) -> None:
         """Makes the whole page anew: another arm, another language."""

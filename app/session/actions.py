@@ -10,6 +10,8 @@ from typing import Literal
 
 import msgspec
 
+from app.diagnosis.model import SavedModel
+
 
 class Action(msgspec.Struct, frozen=True, tag_field="do", forbid_unknown_fields=True, omit_defaults=True):
     """The root of all actions."""
@@ -128,6 +130,12 @@ class LoadPoints(Action, frozen=True, tag="load_points"):
     joints: tuple[tuple[float, ...], ...] = ()
 
 
+class UseModel(Action, frozen=True, tag="use_model"):
+    """The arm in the practice cell is as wrong as a saved model says; None: as described."""
+
+    model: SavedModel | None = None
+
+
 class Undo(Action, frozen=True, tag="undo"):
     """Takes back the last thing that changed points, mode, result or tool; the arm stays where it is."""
 
@@ -204,6 +212,7 @@ AnyAction = (
     | Accept
     | Cancel
     | LoadPoints
+    | UseModel
     | Undo
     | Redo
     | Begin

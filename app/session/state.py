@@ -14,6 +14,7 @@ from app import catalog
 from app.calibration.base.wizard import BaseWizard
 from app.calibration.captures import Capture, Mode, Step
 from app.calibration.solving import Solved
+from app.diagnosis.model import SavedModel
 from app.geometry import Pose
 from app.kinematics import RobotModel, load_robot, robot_names
 from app.session.actions import Begin, Enter, LoadPoints
@@ -65,6 +66,7 @@ class SessionState:
         source: the file the points came from; None where they were recorded here.
         entered: the tool frame typed in for the mode `direct`.
         running: the exercise that is being done.
+        cell_model: what is wrong with the arm in the practice cell; None where it is as described.
         count: actions so far.
         before: what Undo goes back to.
         after: what Redo goes forward to.
@@ -82,6 +84,7 @@ class SessionState:
     source: LoadPoints | None = None
     entered: Enter | None = None
     running: Running | None = None
+    cell_model: SavedModel | None = None
     count: int = 0
     before: SessionState | None = field(default=None, repr=False)
     after: SessionState | None = field(default=None, repr=False)

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from app import catalog
+from app.diagnosis.model import SavedModel
 from app.diagnosis.static.cell import nominal_cell, pose
 from app.diagnosis.static.effect import Place, StaticEffect
 from app.diagnosis.static.situation import Situation, situation_for
@@ -18,6 +19,8 @@ from app.geometry import Pose
 from app.kinematics import RobotModel
 
 EFFECTS = "app.diagnosis.effects.static"
+CONVENTION = "wrong_convention"
+_FIXED = "fixed_"  # how a saved model marks values that choose a law's form
 
 
 @dataclass(frozen=True)
@@ -69,6 +72,26 @@ class Load:
 
     mass: float
     centre: tuple[float, float, float] = (0.0, 0.0, 0.0)
+
+
+def faults_of(model: SavedModel) -> tuple[Fault, ...]:
+    """What a diagnosis found, as faults of the arm in a cell. A step has happened already; a recording's wrong
+    convention is no fault of the arm.
+
+    Raises:
+        UnknownNameError: an effect the library does not have.
+    """
+    out = []
+    for effect in model.effects:
+        if effect.effect == CONVENTION:
+            continue
+        where = {**effect.where, **({"from_row": 1} if "from_row" in effect.where else {})}
+        fixed = {k.removeprefix(_FIXED): v for k, v in effect.parameters.items() if k.startswith(_FIXED)}
+        values = {k: v for k, v in effect.parameters.items() if not k.startswith(_FIXED)}
+        fault = Fault(effect.effect, where, values, fixed)
+        catalog.member(EFFECTS, "EFFECT", fault.effect, what="effect in the saved model")
+        out.append(fault)
+    return tuple(out)
 
 
 def true_flange(

@@ -79,7 +79,7 @@ def test_a_log_plays_its_search_can_be_stopped_and_its_contact_is_marked(
     monkeypatch.chdir(tmp_path)
     asked, patience = [], {"steps": 2000}
 
-    def slow(path, *, robot=None, progress=None):
+    def slow(path, *, robot=None, model=None, progress=None):
         asked.append(path)
         for step in range(patience["steps"]):
             progress(step / patience["steps"], f"step {step}")
@@ -119,4 +119,48 @@ def test_a_log_plays_its_search_can_be_stopped_and_its_contact_is_marked(
     person.click("Play")
     person.until(lambda: person.pendant.worker.running("compare.play"), "the log to play")
     person.picture("compare_log")
+    assert "simulated [Nm]" in person.seen("compare-torques")
+    person.click("Pause")
+    person.until(lambda: not person.pendant.worker.running("compare.play"), "the log to stand")
+    assert not person.faults
+
+
+def test_a_saved_model_is_set_beside_a_recording_and_goes_into_the_practice_cell(serve, sit_down, tmp_path):
+    from app.diagnosis.model import ModelEffect, SavedModel, save_model
+
+    zero = ModelEffect("joint_zero", {"joint": 3}, {"offset": 0.004})
+    save_model(SavedModel("static", "ur10e", (zero,), source="last_week.csv"), tmp_path / "model.json")
+    person = sit_down(serve(robot="ur10e"))
+    kept = compare(person)
+    person.tab("Compare")
+    person.page.get_by_text("Saved model", exact=True).click()
+    with person.page.expect_file_chooser() as choosing:
+        person.click("Send a model file")
+    choosing.value.set_files(str(tmp_path / "model.json"))
+    person.until(lambda: kept.model is not None, "the model")
+    person.click("Record in a cell with it")
+    person.until(lambda: kept.loaded is not None and kept.loaded.judged is not None, "the recording")
+    person.at_rest()
+    person.page.get_by_test_id("compare-judged").wait_for()
+    assert "with the model" in person.seen("compare-judged")
+    assert "last_week.csv" in person.page.locator("body").inner_text()
+    person.click("Put it into the simulation")
+    person.until(lambda: kept.loaded.applied, "the model in the simulation")
+    person.at_rest()
+    sizes = [np.linalg.norm(kept.loaded.vectors(share), axis=1).mean() for share in (0.0, 1.0)]
+    assert sizes[1] < SHRINKS_TO * sizes[0]
+    person.picture("compare_model")
+    person.click("Put it into the practice cell")
+    person.until(lambda: person.state.cell_model is not None, "the model in the practice cell")
+    person.at_rest()
+    q = person.pendant.q
+    shown, true = person.pendant.world.shown_flange(q), person.pendant.world.true_flange(q)
+    assert np.linalg.norm(shown.position - true.position) > 1e-3
+    person.page.get_by_test_id("compare-cell").wait_for()
+    assert "joint 3" in person.seen("compare-cell")
+    person.page.reload()
+    person.until(
+        lambda: any(p is not person.pendant and p.world.faults for p in person.server.pendants),
+        "the model in the practice cell after a reload",
+    )
     assert not person.faults

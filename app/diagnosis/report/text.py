@@ -7,11 +7,11 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from app.diagnosis.report.wording import (
-    NOISE_SOURCES,
     effect_title,
     fall,
     joint_values,
     measure,
+    noise_source,
     place,
     probability,
     quantity,
@@ -64,7 +64,7 @@ def _quality(d: Diagnosis) -> list[str]:
             measure(d.after.heldout_rms, unit),
             fall(d.before.heldout_rms, d.after.heldout_rms),
         ).rstrip(),
-        row("  noise", "", measure(d.noise.value, d.noise.unit), NOISE_SOURCES[d.noise.source]),
+        row("  noise", "", measure(d.noise.value, d.noise.unit), noise_source(d.noise.source)),
     ]
 
 

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
-from app.diagnosis.result import Diagnosis, Parameter
+from app.diagnosis.result import Diagnosis, Finding, Parameter
+from app.phrases import FALLBACK, Texts
 from app.units import deg, mm, um
 
 #: SI unit of a parameter -> (unit a person reads, conversion), where they differ.
@@ -19,57 +21,73 @@ _READ_AS = {
     "m/s": ("mm/s", mm),
 }
 
-DRIVERS = {
-    "own_angle": "its own angle",
-    "gravity_torque": "its gravity torque",
-    "approach": "the direction it came from",
-    "speed": "its speed",
-    "acceleration": "its acceleration",
-    "time": "time",
-    "temperature": "temperature",
-}
-
+#: What a diagnosis is said in, one file a language.
+WORDS = Texts(Path(__file__).parent / "words")
 _NEARLY_ALL = 0.99
-_COUNTS = {2: "two", 3: "three", 4: "four", 5: "five", 6: "six", 7: "seven", 8: "eight", 9: "nine"}
-
-NOISE_SOURCES = {
-    "repeats": "from repeated rows",
-    "stated": "as stated in the file",
-    "resolution": "from the digits written",
-    "residual": "from the residual itself: nothing else tells it",
-}
 
 
-def effect_title(key: str) -> str:
+def effect_title(key: str, language: str = FALLBACK) -> str:
     """`joint_compliance` -> "Joint compliance"."""
-    return key.replace("_", " ").capitalize()
+    name = f"effect.{key}"
+    return WORDS.text(name, language) if WORDS.has(name) else key.replace("_", " ").capitalize()
 
 
-def place(where: Mapping[str, Any]) -> str:
+def parameter_name(key: str, language: str = FALLBACK) -> str:
+    """`com_x` -> "com x"."""
+    name = f"parameter.{key}"
+    return WORDS.text(name, language) if WORDS.has(name) else key.replace("_", " ")
+
+
+def noise_source(key: str, language: str = FALLBACK) -> str:
+    """How the noise is known, in words."""
+    return WORDS.text(f"noise.{key}", language)
+
+
+def place(where: Mapping[str, Any], language: str = FALLBACK) -> str:
     """`where` in words: "joint 2, driven by its gravity torque"."""
+
+    def said(key: str, **fields: Any) -> str:
+        return WORDS.text(f"place.{key}", language, **fields)
+
     parts: list[str] = []
     if where.get("body") is not None:
-        parts.append(str(where["body"]))
+        body = f"body.{where['body']}"
+        parts.append(WORDS.text(body, language) if WORDS.has(body) else str(where["body"]))
     if where.get("joint") is not None:
-        parts.append(f"joint {where['joint']}")
-    if where.get("link") is not None:
-        axis = f" ({where['axis']})" if where.get("axis") is not None else ""
-        parts.append(f"link {where['link']}{axis}")
+        parts.append(said("joint", n=where["joint"]))
+    if where.get("link") is not None and where.get("axis") is not None:
+        parts.append(said("link_axis", n=where["link"], axis=where["axis"]))
+    elif where.get("link") is not None:
+        parts.append(said("link", n=where["link"]))
     if where.get("source_joint") is not None:
-        parts.append(f"moved by joint {where['source_joint']}")
+        parts.append(said("source", n=where["source_joint"]))
     if where.get("driver") is not None:
-        driver = DRIVERS.get(str(where["driver"]), str(where["driver"]).replace("_", " "))
+        key = f"driver.{where['driver']}"
+        driver = WORDS.text(key, language) if WORDS.has(key) else str(where["driver"]).replace("_", " ")
         # Without a joint to belong to, "its" has nothing to point at.
-        parts.append("driven by " + (driver if where.get("joint") else driver.removeprefix("its ")))
+        parts.append(said("driven", driver=driver if where.get("joint") else driver.removeprefix("its ")))
     if where.get("from_row") is not None:
-        parts.append(f"from data row {where['from_row']} on")
+        parts.append(said("from_row", n=where["from_row"]))
     if where.get("from_s") is not None and where.get("to_s") is not None:
-        parts.append(f"from {where['from_s']:.2f} s to {where['to_s']:.2f} s")
+        parts.append(said("window", start=f"{where['from_s']:.2f}", end=f"{where['to_s']:.2f}"))
     elif where.get("from_s") is not None:
-        parts.append(f"from {where['from_s']:.2f} s on")
+        parts.append(said("since", start=f"{where['from_s']:.2f}"))
     known = {"body", "joint", "link", "axis", "source_joint", "driver", "from_row", "from_s", "to_s"}
     parts += [f"{key.replace('_', ' ')} {value}" for key, value in where.items() if key not in known]
-    return ", ".join(parts) or "no single place"
+    return WORDS.text("list.between", language).join(parts) or said("nowhere")
+
+
+def finding_sentence(finding: Finding, language: str = FALLBACK) -> str:
+    """What was found in one sentence: the effect's own in English, place, effect and values elsewhere."""
+    if not WORDS.has("sentence.found", language):
+        return finding.sentence
+    values = WORDS.text("list.between", language).join(
+        f"{parameter_name(p.name, language)} {quantity(p)}" for p in finding.parameters
+    )
+    fields = {"where": place(finding.where, language), "effect": effect_title(finding.effect, language)}
+    if not values:
+        return WORDS.text("sentence.found_bare", language, **fields)
+    return WORDS.text("sentence.found", language, values=values, **fields)
 
 
 def quantity(parameter: Parameter) -> str:
@@ -109,33 +127,27 @@ def digits(value: float, figures: int = 3) -> str:
     return f"{value:.{figures - 1}e}"
 
 
-def probability(p: float) -> str:
+def probability(p: float, language: str = FALLBACK) -> str:
     """ "p = 0.005", or "p < 0.0001" where the number itself says nothing more."""
     if p is None or not math.isfinite(p):
-        return "p unknown"
+        return WORDS.text("probability.unknown", language)
     return "p < 0.0001" if p < 1e-4 else f"p = {p:.2g}"
 
 
-def verdict_sentence(diagnosis: Diagnosis) -> str:
+def verdict_sentence(diagnosis: Diagnosis, language: str = FALLBACK) -> str:
     """The verdict in one sentence."""
-    count = len(diagnosis.findings)
-    what = "one effect" if count == 1 else f"{_COUNTS.get(count, count)} effects"
     if diagnosis.verdict == "clean":
-        return "Robot and description agree: nothing in this recording goes beyond its noise."
-    if diagnosis.verdict == "named":
-        return (
-            f"The description leaves out {what}; with {'it' if count == 1 else 'them'} in the "
-            "model nothing beyond noise is left."
-        )
+        return WORDS.text("verdict.clean", language)
+    where = place(diagnosis.leftover.where, language)
+    if diagnosis.verdict == "unexplained":
+        return WORDS.text("verdict.unexplained", language, where=where)
+    count = len(diagnosis.findings)
+    word = f"count.{count}"
+    number = WORDS.text(word, language) if WORDS.has(word) else str(count)
+    what = WORDS.text("verdict.one" if count == 1 else "verdict.many", language, count=number)
     if diagnosis.verdict == "partly":
-        return (
-            f"{what.capitalize()} found, but structure remains that no effect explains "
-            f"(seen at: {place(diagnosis.leftover.where)})."
-        )
-    return (
-        "There is structure beyond noise and no known effect explains it: no name is given. "
-        f"Seen at: {place(diagnosis.leftover.where)}."
-    )
+        return WORDS.text("verdict.partly", language, what=what[:1].upper() + what[1:], where=where)
+    return WORDS.text("verdict.named_one" if count == 1 else "verdict.named_many", language, what=what)
 
 
 def joint_values(q: Sequence[float], prismatic: Sequence[bool] = ()) -> str:
@@ -144,13 +156,13 @@ def joint_values(q: Sequence[float], prismatic: Sequence[bool] = ()) -> str:
     return "  ".join(f"{mm(v):.1f} mm" if s else f"{deg(v):.1f}°" for v, s in zip(q, slides, strict=True))
 
 
-def fall(before: float, after: float) -> str:
+def fall(before: float, after: float, language: str = FALLBACK) -> str:
     """How much smaller: "82% smaller", "unchanged"."""
     if not (math.isfinite(before) and math.isfinite(after)) or before <= 0:
         return ""
     share = 1 - after / before
     if abs(share) < 0.005:
-        return "unchanged"
+        return WORDS.text("fall.unchanged", language)
     if share > _NEARLY_ALL:
-        return f"over {_NEARLY_ALL:.0%} smaller"
-    return f"{abs(share):.0%} {'smaller' if share > 0 else 'larger'}"
+        return WORDS.text("fall.over", language, share=f"{_NEARLY_ALL:.0%}")
+    return WORDS.text("fall.smaller" if share > 0 else "fall.larger", language, share=f"{abs(share):.0%}")

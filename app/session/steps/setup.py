@@ -7,8 +7,9 @@ import math
 import numpy as np
 
 from app.calibration.tool import METHODS
-from app.errors import UnknownNameError
-from app.session.actions import ChooseMethod, ChooseMode, ChooseRobot, Move
+from app.diagnosis.static.predict import model_flange_matrix
+from app.errors import TeachframeError, UnknownNameError
+from app.session.actions import ChooseMethod, ChooseMode, ChooseRobot, Move, UseModel
 from app.session.refusals import refusal
 from app.session.state import SessionState, first_state, mode_named
 
@@ -70,7 +71,25 @@ def _move(state: SessionState, action: Move) -> SessionState:
     return state.but(q=checked_joints(state, action.q))
 
 
+def _use_model(state: SessionState, action: UseModel) -> SessionState:
+    model = action.model
+    if model is not None:
+        if model.kind != "static":
+            raise refusal("model_kind")
+        beyond = [
+            k for e in model.effects for k in ("joint", "link") if e.where.get(k, 1) > state.model.joint_count
+        ]
+        if beyond or model.robot != state.robot:
+            raise refusal("model_robot", learnt=model.robot, robot=state.robot)
+        try:
+            model_flange_matrix(state.model, model, np.array(state.q))
+        except TeachframeError as error:  # an effect nobody knows, a value that is missing
+            raise refusal("unknown", reason=str(error)) from None
+    return state.but(cell_model=model)
+
+
 ACTIONS = {
+    UseModel: _use_model,
     ChooseRobot: _choose_robot,
     ChooseMode: choose_mode,
     ChooseMethod: _choose_method,

@@ -54,13 +54,17 @@ def trace_plot(
                 )
     out.append(upper.frame("", f"{evidence.components[joint]}: torque [Nm]", x_ticks=0))
     out.append(lower.frame("time [s]" if labelled else "", "", y_ticks=2, x_ticks=6 if labelled else 0))
-    for axes, values, klass in (
+    searched = not np.array_equal(before, after, equal_nan=True)  # else there is only one simulation to show
+    lines = [
         (upper, measured, "trace measured"),
         (upper, measured - before, "trace before"),
         (upper, measured - after, "trace after"),
         (lower, before, "trace before"),
         (lower, after, "trace after"),
-    ):
+    ]
+    for axes, values, klass in lines:
+        if klass == "trace after" and not searched:
+            continue
         out.append(svg.line(*_thin(axes, t, values), klass))
     if at is not None:
         x = float(upper.x(at))

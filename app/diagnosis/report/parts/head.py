@@ -7,7 +7,7 @@ from pathlib import Path
 
 from app.diagnosis.report.drawing.bars import before_after_bars
 from app.diagnosis.report.parts.case import Case, figure, key
-from app.diagnosis.report.wording import NOISE_SOURCES, fall, measure, verdict_sentence
+from app.diagnosis.report.wording import fall, measure, noise_source, verdict_sentence
 
 _VERDICTS = {"clean": "Clean", "named": "Named", "partly": "Partly explained", "unexplained": "Unexplained"}
 
@@ -24,7 +24,7 @@ def head(case: Case, date: str) -> str:
     d = case.diagnosis
     title = _robot(case)
     meta = f"{d.kind} recording, {d.samples} samples · robot {title}"
-    noise = f"{measure(d.noise.value, d.noise.unit)} {NOISE_SOURCES[d.noise.source]}"
+    noise = f"{measure(d.noise.value, d.noise.unit)} {noise_source(d.noise.source)}"
     marks = f'<span><i class="n"></i>noise: {escape(noise)}</span>' if d.noise.unit == d.before.unit else ""
     smaller = fall(d.before.heldout_rms, d.after.heldout_rms)
     caption = (

@@ -4,20 +4,27 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from html import escape
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from app.diagnosis.judging import BARE, MASSES, WITH
+from app.diagnosis.model import SavedModel
 from app.diagnosis.report.wording import (
-    NOISE_SOURCES,
+    WORDS,
     effect_title,
+    fall,
+    finding_sentence,
     measure,
+    noise_source,
+    parameter_name,
     place,
     probability,
     quantity,
     verdict_sentence,
 )
-from app.diagnosis.result import Diagnosis, Finding
+from app.diagnosis.result import Diagnosis, Finding, Judged
 from app.pendant import html
 from app.units import deg, mm
 
@@ -25,6 +32,8 @@ if TYPE_CHECKING:
     from app.pendant.client import Pendant
     from app.pendant.screens._compare.loaded import Loaded
 
+_STEPS = {BARE: "judged.bare", MASSES: "judged.masses", WITH: "judged.with"}
+_MOST_SAID, _MOST_ROWS = 4, 20  # effects of a model, rows set aside
 _LIGHT = {"clean": "green", "named": "blue", "partly": "yellow", "unexplained": "red"}
 
 
@@ -45,18 +54,28 @@ def row(pendant: Pendant, loaded: Loaded, index: int, share: float) -> str:
         f"{mm(v):.0f} mm" if s else f"{deg(v):.1f}°" for v, s in zip(evidence.q[index], slides, strict=True)
     )
     if loaded.moving:
-        seconds = evidence.seconds
-        at = 0.0 if seconds is None else float(seconds[index] - seconds[0])
-        words = pendant.t("compare.moment", line=line, seconds=f"{at:.2f}")
+        words = pendant.t("compare.moment", line=line, seconds=f"{loaded.moment(index):.2f}")
     else:
         off = float(np.linalg.norm(loaded.vectors(share)[index]))
         words = pendant.t("compare.row_off", line=line, mm=f"{mm(off):.3f}")
         if not evidence.kept[index]:
             words += " " + pendant.t("compare.set_aside")
-    legend = "" if loaded.moving else _legend(pendant)
-    return html.block(
-        f'<b>{escape(words)}</b><div style="opacity:.7">{escape(angles)}</div>{legend}', testid="compare-row"
+    below = "" if loaded.moving else _legend(pendant)
+    said = html.block(
+        f'<b>{escape(words)}</b><div style="opacity:.7">{escape(angles)}</div>{below}', testid="compare-row"
     )
+    return said + (_torques(pendant, loaded, index, share) if loaded.moving else "")
+
+
+def _torques(pendant: Pendant, loaded: Loaded, index: int, share: float) -> str:
+    """Measured and simulated torque of every joint at one moment."""
+    measured, off = loaded.evidence.measured[index], loaded.off(index, share)
+    rows = [
+        (pendant.t("compare.measured"), *(f"{v:.1f}" for v in measured)),
+        (pendant.t("compare.simulated"), *(f"{v:.1f}" for v in measured - off)),
+    ]
+    head = ("", *(f"J{j + 1}" for j in range(len(measured))))
+    return html.table(rows, head=head, testid="compare-torques")
 
 
 def _legend(pendant: Pendant) -> str:
@@ -71,10 +90,61 @@ def _legend(pendant: Pendant) -> str:
 
 def verdict(pendant: Pendant, diagnosis: Diagnosis) -> str:
     """The verdict as a light, and the noise it is judged against."""
-    noise = f"{measure(diagnosis.noise.value, diagnosis.noise.unit)}, {NOISE_SOURCES[diagnosis.noise.source]}"
-    return html.light(
-        _LIGHT[diagnosis.verdict], verdict_sentence(diagnosis), testid="compare-verdict"
-    ) + html.paragraph(pendant.t("compare.noise", noise=noise), faint=True)
+    source = noise_source(diagnosis.noise.source, pendant.language)
+    noise = f"{measure(diagnosis.noise.value, diagnosis.noise.unit)}, {source}"
+    said = verdict_sentence(diagnosis, pendant.language)
+    return html.light(_LIGHT[diagnosis.verdict], said, testid="compare-verdict") + html.paragraph(
+        pendant.t("compare.noise", noise=noise), faint=True
+    )
+
+
+def judged(pendant: Pendant, of: Judged) -> str:
+    """A given model on this recording: the error with and without it."""
+    first = next(iter(of.steps.values()))
+    rows = [
+        (
+            WORDS.text(_STEPS[what], pendant.language),
+            measure(q.heldout_rms, q.unit),
+            "" if q is first else fall(first.heldout_rms, q.heldout_rms, pendant.language),
+        )
+        for what, q in of.steps.items()
+    ]
+    learnt = Path(of.source).name if of.source else "?"
+    return html.paragraph(pendant.t("compare.judged", source=learnt)) + html.table(
+        rows, testid="compare-judged"
+    )
+
+
+def model(pendant: Pendant, given: SavedModel | None, name: str) -> str:
+    """What a saved model holds, and what stands in the practice cell."""
+    out = []
+    if given is not None:
+        out.append(html.paragraph(pendant.t("compare.model_holds", name=name, what=_effects(pendant, given))))
+    in_cell = pendant.session.state.cell_model
+    if in_cell is not None:
+        words = pendant.t("compare.cell_holds", what=_effects(pendant, in_cell))
+        out.append(html.paragraph(words, testid="compare-cell", style="font-weight:600"))
+    return "".join(out)
+
+
+def _effects(pendant: Pendant, of: SavedModel) -> str:
+    said = [
+        f"{effect_title(e.effect, pendant.language)} ({place(e.where, pendant.language)})"
+        for e in of.effects[:_MOST_SAID]
+    ]
+    if len(of.effects) > _MOST_SAID:
+        said.append(f"… +{len(of.effects) - _MOST_SAID}")
+    return "; ".join(said) or "–"
+
+
+def notes(pendant: Pendant, diagnosis: Diagnosis) -> str:
+    """What else a person should know: rows set aside, the engine's remarks."""
+    items = [("yellow", note) for note in diagnosis.notes]
+    if diagnosis.outliers:
+        rows = ", ".join(map(str, diagnosis.outliers[:_MOST_ROWS]))
+        more = f" +{len(diagnosis.outliers) - _MOST_ROWS}" if len(diagnosis.outliers) > _MOST_ROWS else ""
+        items.insert(0, ("red", pendant.t("compare.outliers", rows=rows + more)))
+    return html.notes(items, testid="compare-notes")
 
 
 def findings(pendant: Pendant, diagnosis: Diagnosis) -> str:
@@ -83,10 +153,10 @@ def findings(pendant: Pendant, diagnosis: Diagnosis) -> str:
 
 
 def _card(pendant: Pendant, number: int, f: Finding, unit: str) -> str:
-    t = pendant.t
-    rows = [(p.name.replace("_", " "), quantity(p)) for p in f.parameters]
+    t, language = pendant.t, pendant.language
+    rows = [(parameter_name(p.name, language), quantity(p)) for p in f.parameters]
     rows += [
-        (t("compare.sure"), probability(f.p_value)),
+        (t("compare.sure"), probability(f.p_value, language)),
         (t("compare.visible"), f"{f.visible:.0%}"),
         (
             t("compare.held_out"),
@@ -95,12 +165,14 @@ def _card(pendant: Pendant, number: int, f: Finding, unit: str) -> str:
     ]
     others = ""
     if f.alternatives:
-        said = "; ".join(f"{effect_title(a.effect)}, {place(a.where)}" for a in f.alternatives)
+        said = "; ".join(
+            f"{effect_title(a.effect, language)}, {place(a.where, language)}" for a in f.alternatives
+        )
         others = html.paragraph(t("compare.others", others=said), faint=True)
     head = (
-        f'<div style="font-weight:600;font-size:13px">{number}. {escape(effect_title(f.effect))}'
-        f'<span style="font-weight:400;opacity:.75"> · {escape(place(f.where))}</span></div>'
-        f'<div style="margin:3px 0">{escape(f.sentence)}</div>'
+        f'<div style="font-weight:600;font-size:13px">{number}. {escape(effect_title(f.effect, language))}'
+        f'<span style="font-weight:400;opacity:.75"> · {escape(place(f.where, language))}</span></div>'
+        f'<div style="margin:3px 0">{escape(finding_sentence(f, language))}</div>'
     )
     law = html.block(f"<i>{escape(f.equation)}</i>", style="opacity:.8") if f.equation else ""
     return html.block(
@@ -112,7 +184,8 @@ def _card(pendant: Pendant, number: int, f: Finding, unit: str) -> str:
 
 def truth(pendant: Pendant, hidden: Sequence[dict]) -> str:
     """What was really wrong in the simulated cell."""
-    said = "; ".join(f"{effect_title(e['effect'])}, {place(e['where'])}" for e in hidden)
+    language = pendant.language
+    said = "; ".join(f"{effect_title(e['effect'], language)}, {place(e['where'], language)}" for e in hidden)
     return html.paragraph(
         pendant.t("compare.truth", what=said), testid="compare-truth", style="font-weight:600"
     )

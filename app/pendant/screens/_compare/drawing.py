@@ -21,6 +21,7 @@ _MOST_ARROWS = 400
 _SHAFT, _HEAD, _HEAD_LENGTH = from_mm(2.0), from_mm(5.5), from_mm(15.0)
 _POSES_SEEN = 300
 _FROM, _FAR = np.array([1.0, -0.8, 0.55]), 2.3  # the eye's direction, and its distance in radii
+_SIDES = 1.5  # an arm is taller than wide: only a window narrower than this needs more distance
 _NOISE_IS_GREEN = 4.0
 _RING, _TUBE = 0.085, 0.013  # of a joint's ring, as shares of the reach
 
@@ -135,6 +136,7 @@ def look_at(camera: viser.CameraHandle, loaded: Loaded) -> None:
     low, high = around.min(0), around.max(0)
     centre = (low + high) / 2.0
     far = _FAR * max(float(np.linalg.norm(high - low)) / 2.0, reach / 2.0)
+    far /= min(_SIDES * camera.aspect, 1.0)  # a narrow window sees less to its sides
     camera.position = tuple(centre + far * _FROM / np.linalg.norm(_FROM))
     camera.look_at = tuple(centre)
 

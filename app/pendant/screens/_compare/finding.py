@@ -9,7 +9,9 @@ from typing import TYPE_CHECKING
 
 from app.diagnosis.result import Diagnosis
 from app.errors import TeachframeError
+from app.pendant import html
 from app.pendant.screens._compare.loaded import Loaded, search
+from app.pendant.texts import FALLBACK, has_text
 
 if TYPE_CHECKING:
     from app.pendant.client import Pendant
@@ -91,10 +93,10 @@ class Search:
         self._pendant.background(job, done)
 
     def _show(self, share: float, doing: str) -> None:
-        from app.pendant import html
-
         self.bar.value = 100.0 * max(0.0, min(1.0, share))
-        self.doing.content = html.paragraph(doing, faint=True, testid="compare-doing")
+        key = f"doing.{doing.replace(' ', '_')}"
+        said = self._pendant.t(key) if has_text(key, FALLBACK) else doing
+        self.doing.content = html.paragraph(said, faint=True, testid="compare-doing")
 
     def _busy(self, busy: bool) -> None:
         self.button.visible = not busy

@@ -7,6 +7,8 @@ from pathlib import Path
 
 import numpy as np
 
+from app.diagnosis.model import SavedModel
+
 #: Faults that a recording of sixty poses can show.
 FAULTS = (
     "joint_zero",
@@ -52,6 +54,31 @@ def make_hidden(robot: str, kind: str, folder: Path, seed: int) -> tuple[Path, t
     said = json.loads(truth.read_text(encoding="utf-8"))
     truth.unlink()
     return out, tuple({"effect": e["effect"], "where": e["where"]} for e in said["effects"])
+
+
+def make_with(robot: str, kind: str, model: SavedModel, folder: Path, seed: int) -> Path:
+    """Writes a recording from a cell in which a saved model is true, and nothing else is wrong.
+
+    Raises:
+        InputError: a model of another arm or of another kind of recording.
+    """
+    from app.proof.generator.motion.making import MotionPlan
+    from app.proof.generator.motion.simulate import simulate_motion
+    from app.proof.generator.simulate import simulate_static
+    from app.proof.generator.static.making import Plan
+    from app.proof.held import terms_of
+
+    out = folder / f"model_{seed}.csv"
+    if kind == "motion":
+        plan = MotionPlan(samples=_SAMPLES)
+        held, _ = terms_of(model, kind, robot, samples=_SAMPLES, seconds=_SAMPLES / plan.rate)
+        simulate_motion(robot, plan, [], seed, out, held=held).unlink()
+    else:
+        held, _ = terms_of(model, kind, robot, samples=_ROWS)
+        simulate_static(
+            robot, Plan(kind=kind, samples=_ROWS, noise=_NOISE), [], seed, out, held=held
+        ).unlink()
+    return out
 
 
 def _poses(robot: str, kind: str, fault: str, seed: int, out: Path) -> Path:

@@ -8,18 +8,21 @@ import weakref
 from collections import OrderedDict
 from pathlib import Path
 
+from app.diagnosis.model import SavedModel
 from app.pendant.screens._compare.loaded import Loaded
 
 _MOST = 24  # sessions whose recordings are kept
 
 
 class Kept:
-    """Files of one session, deleted with it, and the recording that is shown."""
+    """Files of one session, deleted with it, the recording that is shown, and the model somebody brought."""
 
     def __init__(self):
         self.folder = Path(tempfile.mkdtemp(prefix="teachframe-"))
         self.loaded: Loaded | None = None
         self.urdf: Path | None = None
+        self.model: SavedModel | None = None
+        self.model_name = ""
         weakref.finalize(self, shutil.rmtree, self.folder, ignore_errors=True)
 
 

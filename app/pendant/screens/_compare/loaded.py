@@ -10,10 +10,12 @@ from pathlib import Path
 import numpy as np
 
 from app.diagnosis.dispatch import diagnose_file, robot_for
+from app.diagnosis.judging import judge
+from app.diagnosis.model import SavedModel
 from app.diagnosis.preview import preview
 from app.diagnosis.report.curves import residual_vectors
 from app.diagnosis.report.drawing.arrows import magnification
-from app.diagnosis.result import Cancelled, Diagnosis, Evidence
+from app.diagnosis.result import Cancelled, Diagnosis, Evidence, Judged, Quality
 from app.kinematics import RobotModel
 from app.recordings import read_table
 
@@ -30,6 +32,8 @@ class Loaded:
         diagnosis: None until somebody searched.
         applied: True while the findings are in the simulation.
         truth: what a simulated cell has hidden; empty for real recordings.
+        model: one that was given; before the search `evidence` stands with it on one side.
+        judged: the given model on this recording.
     """
 
     path: Path
@@ -39,6 +43,8 @@ class Loaded:
     diagnosis: Diagnosis | None = None
     applied: bool = False
     truth: tuple[dict, ...] = field(default=())
+    model: SavedModel | None = None
+    judged: Judged | None = None
 
     @property
     def moving(self) -> bool:
@@ -48,6 +54,41 @@ class Loaded:
     @property
     def count(self) -> int:
         return len(self.evidence.q)
+
+    @property
+    def change(self) -> tuple[Quality, Quality] | None:
+        """Error without and with what can be put into the simulation; None where there is nothing to put in."""
+        found = self.diagnosis
+        if found is not None:
+            changed = bool(found.findings) or found.before != found.after
+            return (found.before, found.after) if changed else None
+        if self.judged is None:
+            return None
+        steps = list(self.judged.steps.values())
+        return steps[0], steps[-1]
+
+    @property
+    def start(self) -> float:
+        """Time of the first sample [s]; 0 for poses."""
+        seconds = self.evidence.seconds
+        return 0.0 if seconds is None else float(seconds[0])
+
+    @property
+    def seconds(self) -> float:
+        """How long a log lasts [s]."""
+        return self.moment(self.count - 1)
+
+    def moment(self, index: int) -> float:
+        """Time of a row since the first [s]."""
+        seconds = self.evidence.seconds
+        return 0.0 if seconds is None else float(seconds[index]) - self.start
+
+    def index_at(self, moment: float) -> int:
+        """The row at a time since the first [s]."""
+        seconds = self.evidence.seconds
+        if seconds is None:
+            return 0
+        return min(int(np.searchsorted(seconds, moment + self.start)), self.count - 1)
 
     @property
     def factor(self) -> float:
@@ -60,6 +101,11 @@ class Loaded:
         if before is None or after is None:
             return np.zeros((self.count, 3))
         return np.nan_to_num((1.0 - share) * before + share * after)
+
+    def off(self, index: int, share: float) -> np.ndarray:
+        """(n,) torque error of one sample [Nm], `share` of the way from before (0) to after (1)."""
+        before, after = self.evidence.before[index], self.evidence.after[index]
+        return (1.0 - share) * before + share * after
 
     @property
     def worst(self) -> int:
@@ -84,18 +130,23 @@ class Loaded:
     def with_diagnosis(self, found: Diagnosis) -> Loaded:
         """The same recording, searched."""
         evidence = found.evidence if found.evidence is not None else self.evidence
-        return replace(self, diagnosis=found, evidence=evidence, applied=False)
+        return replace(self, diagnosis=found, evidence=evidence, applied=False, judged=found.judged)
 
 
-def load(path: Path, *, robot: str | None = None, truth: tuple[dict, ...] = ()) -> Loaded:
-    """Reads a recording and sets it beside the bare description.
+def load(
+    path: Path, *, robot: str | None = None, truth: tuple[dict, ...] = (), model: SavedModel | None = None
+) -> Loaded:
+    """Reads a recording and sets it beside the bare description, and beside a model where one is given.
 
     Raises:
         InputError, DegenerateGeometryError: it cannot be used.
     """
     table = read_table(path)
     arm = robot_for(table, robot)
-    return Loaded(path, arm, robot, preview(table, arm), truth=truth)
+    if model is None:
+        return Loaded(path, arm, robot, preview(table, arm), truth=truth)
+    evidence = preview(table, arm, model)
+    return Loaded(path, arm, robot, evidence, truth=truth, model=model, judged=judge(table, arm, model))
 
 
 def search(loaded: Loaded, stop: threading.Event, say: Callable[[float, str], None]) -> Diagnosis | None:
@@ -107,6 +158,6 @@ def search(loaded: Loaded, stop: threading.Event, say: Callable[[float, str], No
         say(share, doing)
 
     try:
-        return diagnose_file(loaded.path, robot=loaded.named, progress=progress)
+        return diagnose_file(loaded.path, robot=loaded.named, model=loaded.model, progress=progress)
     except Cancelled:
         return None

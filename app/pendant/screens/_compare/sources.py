@@ -6,9 +6,10 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from app.diagnosis.model import SavedModel
 from app.errors import InputError
 from app.kinematics import robot_names
-from app.pendant.screens._compare.hidden import KINDS, make_hidden
+from app.pendant.screens._compare.hidden import KINDS, make_hidden, make_with
 from app.pendant.screens._compare.kept import Kept
 from app.pendant.screens._compare.loaded import Loaded, load
 
@@ -35,7 +36,8 @@ class Sources:
 
         self.path = gui.add_text(t("compare.path"), "", hint=t("compare.path_hint"))
         pendant.clicked(gui.add_button(t("compare.load")), self._from_path)
-        self.kind = gui.add_dropdown(t("compare.kind"), KINDS)
+        self._kinds = {t(f"compare.kind_{kind}"): kind for kind in KINDS}
+        self.kind = gui.add_dropdown(t("compare.kind"), tuple(self._kinds))
         make = gui.add_button(t("compare.make"), hint=t("compare.make_hint"), color="gray")
         pendant.clicked(make, self._made)
 
@@ -69,18 +71,49 @@ class Sources:
             )
         self._read(path, self._named())
 
-    def _made(self) -> None:
-        pendant = self._pendant
-        robot = pendant.session.state.robot
-        kind, seed = self.kind.value, int(pendant.rng.integers(1, 10**6))
-        pendant.say("info", pendant.t("compare.making", kind=kind))
+    def record_with_model(self) -> None:
+        """A recording from a cell in which the given model is true."""
+        model, pendant = self._kept.model, self._pendant
+        if model is None:
+            return
+        robot, seed = pendant.session.state.robot, self._seed()
+        kind = self._kinds[self.kind.value]
+        if model.kind == "motion" or kind == "motion":
+            kind = "motion" if model.kind == "motion" else "tracker"
+        pendant.say("info", pendant.t("compare.making", kind=pendant.t(f"compare.kind_{kind}")))
 
         def job() -> Loaded:
-            path, truth = make_hidden(robot, kind, self._kept.folder, seed)
-            return load(path, truth=truth)
+            return load(make_with(robot, kind, model, self._kept.folder, seed), model=model)
 
         pendant.background(job, self._loaded)
 
+    def again(self, loaded: Loaded) -> None:
+        """The same recording beside the model that is given now."""
+        model = self._kept.model
+        self._pendant.background(
+            lambda: load(loaded.path, robot=loaded.named, truth=loaded.truth, model=model), self._loaded
+        )
+
+    def _made(self) -> None:
+        pendant = self._pendant
+        robot, kind, seed = pendant.session.state.robot, self._kinds[self.kind.value], self._seed()
+        pendant.say("info", pendant.t("compare.making", kind=self.kind.value))
+
+        def job() -> Loaded:
+            path, truth = make_hidden(robot, kind, self._kept.folder, seed)
+            return load(path, truth=truth, model=self._fitting(kind))
+
+        pendant.background(job, self._loaded)
+
+    def _fitting(self, kind: str) -> SavedModel | None:
+        """The given model, where it is one for such a recording."""
+        model = self._kept.model
+        return model if model is not None and (model.kind == "motion") == (kind == "motion") else None
+
+    def _seed(self) -> int:
+        return int(self._pendant.rng.integers(1, 10**6))
+
     def _read(self, path: Path, named: str | None) -> None:
         self._pendant.say("info", self._pendant.t("compare.reading", name=path.name))
-        self._pendant.background(lambda: load(path, robot=named), self._loaded)
+        model = self._kept.model
+        self._pendant.background(lambda: load(path, robot=named, model=model), self._loaded)
