@@ -58,9 +58,8 @@ def _motion(table: Table, robot: RobotModel, model: SavedModel | None) -> Eviden
     log, motion, _ = ready(table, robot)
     samples = take_samples(log, robot, motion, log.y, lambda share, what: None)
     after = samples.y if model is None else torque_residuals(samples, robot, model)[WITH]
-    centre = samples.index.reshape(-1, samples.window)[:, samples.window // 2]
     return Evidence(
-        rows=log.rows[centre],
+        rows=log.rows[samples.centre],
         measured=samples.y + samples.pool(samples.state.torque),
         before=samples.y,
         after=after,
