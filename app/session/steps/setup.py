@@ -73,6 +73,8 @@ def _move(state: SessionState, action: Move) -> SessionState:
 
 def _use_model(state: SessionState, action: UseModel) -> SessionState:
     model = action.model
+    if state.running is not None:  # an exercise has a cell of its own
+        raise refusal("exercise_runs")
     if model is not None:
         if model.kind != "static":
             raise refusal("model_kind")
