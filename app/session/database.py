@@ -58,7 +58,7 @@ class Database:
             self._engine = create_engine(address, **options)
             if lite:
                 event.listen(self._engine, "connect", _durable)
-            METADATA.create_all(self._engine)
+            self.make_tables()
         except ModuleNotFoundError as error:
             raise InputError(
                 f"{self.name} needs the package {error.name}",
@@ -69,6 +69,10 @@ class Database:
             raise InputError(f"{self.name}: {_said(error)}", column="--database") from None
         except SQLAlchemyError as error:
             raise InputError(f"{self.name} cannot be used ({_said(error)})", column="--database") from None
+
+    def make_tables(self) -> None:
+        """Makes the tables that are not there yet: layers above this one have their own."""
+        METADATA.create_all(self._engine)
 
     @contextmanager
     def begin(self) -> Iterator[Connection]:

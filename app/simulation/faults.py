@@ -12,8 +12,8 @@ import numpy as np
 from app import catalog
 from app.diagnosis.model import SavedModel
 from app.diagnosis.static.cell import nominal_cell, pose
-from app.diagnosis.static.effect import Place, StaticEffect
-from app.diagnosis.static.situation import Situation, situation_for
+from app.diagnosis.static.effect import Place, Quantity, StaticEffect
+from app.diagnosis.static.situation import situation_for
 from app.errors import UnknownNameError
 from app.geometry import Pose
 from app.kinematics import RobotModel
@@ -52,7 +52,7 @@ class Fault:
         Raises:
             UnknownNameError: a parameter the effect does not have; lists those it has.
         """
-        names = [q.name for q in self.law.quantities(self._situation(robot), self.place)]
+        names = [q.name for q in self.quantities(robot)]
         for name in self.values:
             if name not in names:
                 raise UnknownNameError(name, available=names, what=f"parameter of {self.effect}")
@@ -62,8 +62,9 @@ class Fault:
     def place(self) -> Place:
         return Place(dict(self.where), dict(self.fixed))
 
-    def _situation(self, robot: RobotModel) -> Situation:
-        return situation_for(robot, robot.home[None])
+    def quantities(self, robot: RobotModel) -> tuple[Quantity, ...]:
+        """The parameters of the effect on this arm, with their units."""
+        return self.law.quantities(situation_for(robot, robot.home[None]), self.place)
 
 
 @dataclass(frozen=True)
