@@ -8,6 +8,7 @@ from app.calibration.solving import solve_file, to_json
 from app.calibration.text import page
 from app.errors import TeachframeError
 from app.resources import STATIC
+from tests.calibration.fuzzing import EXAMPLES
 
 GOOD = (STATIC / "samples" / "xiong2012_table1.csv").read_text(encoding="utf-8")
 QUATERNIONS = "# angles: quaternion\nrole,x_mm,y_mm,z_mm,qw,qx,qy,qz\n" + "".join(
@@ -30,6 +31,7 @@ WORDS = [
 ]
 PIECES = st.one_of(st.text(max_size=10), st.sampled_from([*WORDS, ":", "[", "\x00", "\ufeff", "é"]))
 ROLES = st.sampled_from(["touch", "touch+origin", "x", "z", "y", "known"])
+FUZZ = {"deadline": None, "suppress_health_check": [HealthCheck.function_scoped_fixture]}
 NUMBERS = st.one_of(st.floats(), st.floats(-2000, 2000), st.integers(-(10**20), 10**20))
 
 
@@ -42,7 +44,11 @@ def attempt(path):
         assert "\n" not in str(error) and str(path) in str(error)
 
 
-@settings(max_examples=250, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(
+    max_examples=EXAMPLES["spoilt points file"],
+    deadline=None,
+    suppress_health_check=[HealthCheck.function_scoped_fixture],
+)
 @given(data=st.data())
 def test_mangled_points_files_give_the_projects_errors_only(data, tmp_path):
     text = data.draw(st.sampled_from([GOOD, QUATERNIONS]))
@@ -55,7 +61,11 @@ def test_mangled_points_files_give_the_projects_errors_only(data, tmp_path):
     attempt(path)
 
 
-@settings(max_examples=200, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(
+    max_examples=EXAMPLES["any numbers"],
+    deadline=None,
+    suppress_health_check=[HealthCheck.function_scoped_fixture],
+)
 @given(
     angles=st.sampled_from(["ZYX", "ZYZ", "XYZ", "rotvec"]),
     rows=st.lists(st.tuples(ROLES, st.lists(NUMBERS, min_size=6, max_size=6)), max_size=9),
@@ -68,7 +78,11 @@ def test_any_numbers_in_a_well_formed_file_give_a_result_or_the_projects_errors(
     attempt(path)
 
 
-@settings(max_examples=100, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(
+    max_examples=EXAMPLES["any bytes"],
+    deadline=None,
+    suppress_health_check=[HealthCheck.function_scoped_fixture],
+)
 @given(data=st.binary(max_size=600))
 def test_any_bytes_give_the_projects_errors_only(data, tmp_path):
     path = tmp_path / "points.csv"

@@ -17,6 +17,7 @@ from app.units import mm
 LARGEST = 1_000_000
 #: A number as all these formats write it.
 NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
+LONGEST_NAME = 24
 #: No tool is longer [m], and no number of an orientation larger.
 _FARTHEST, _LARGEST_NUMBER = 1e3, 1e6
 _SKEW = 1e-3
@@ -27,7 +28,7 @@ class ToolFrame:
     """A tool as a controller stores it.
 
     Args:
-        name: letters, digits and underscores, not starting with a digit.
+        name: letters, digits and underscores, a letter first.
         pose: T_flange_tool.
         mass: of the tool [kg]; 0 where it is not known.
         com: (3,) its centre of mass in the flange [m].
@@ -67,9 +68,12 @@ class ExchangeFormat(Protocol):
 
 
 def safe_name(name: str) -> str:
-    """A name that every controller takes: at most 32 letters, digits and underscores."""
-    clean = re.sub(r"[^A-Za-z0-9_]", "_", name)[:32]
-    return clean if clean and not clean[0].isdigit() else "t" + clean[:31]
+    """A name that every controller takes: at most 24 letters, digits and underscores, a letter first.
+
+    KUKA's TOOL_NAME holds 24 characters, ABB's identifiers 32.
+    """
+    clean = re.sub(r"[^A-Za-z0-9_]", "_", name)[:LONGEST_NAME]
+    return clean if clean and clean[0].isalpha() else "t" + clean[: LONGEST_NAME - 1]
 
 
 def number(text: str, row: int | None = None, column: str | None = None) -> float:
@@ -117,6 +121,16 @@ def written(value: float, places: int = 7) -> str:
 def written_mm(values: np.ndarray) -> list[str]:
     """Metres -> millimetres as text."""
     return [written(v) for v in mm(np.asarray(values, float))]
+
+
+def without_comments(text: str, mark: str) -> str:
+    """The text with everything blanked from `mark` to the end of its line, unless it stands inside quotes; places
+    and rows stay what they were."""
+
+    def blank(found: re.Match[str]) -> str:
+        return found.group(0) if found.group(0).startswith('"') else " " * len(found.group(0))
+
+    return re.sub(rf'"[^"\n]*"|{re.escape(mark)}[^\n]*', blank, text)
 
 
 def row_of(text: str, place: int) -> int:

@@ -1,7 +1,8 @@
 """ABB RAPID: `PERS tooldata torch := [TRUE, [[x,y,z],[q1,q2,q3,q4]], [mass,[x,y,z],[1,0,0,0],0,0,0]];`
 
 Millimetres, quaternion w first, kilograms. An unknown mass is written as -1, as the controller itself marks a load that
-has not been identified.
+has not been identified: it loads the module and asks for the mass before it moves. A tool that stands still (robhold
+FALSE) has its frame in the world, not in the flange, and is refused.
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ from app.calibration.exchange._frame import (
     number,
     row_of,
     unit_quaternion,
+    without_comments,
     written,
     written_mm,
 )
@@ -35,7 +37,7 @@ class AbbRapid:
     suffix = ".mod"
 
     def knows(self, text: str) -> bool:
-        return _START.search(text) is not None
+        return _START.search(without_comments(text, "!")) is not None
 
     def write(self, frame: ToolFrame) -> str:
         position = ",".join(written_mm(frame.pose.position))
@@ -49,11 +51,19 @@ class AbbRapid:
         )
 
     def read(self, text: str) -> ToolFrame:
+        text = without_comments(text, "!")
         start = _START.search(text)
         if not start:
             raise FileFormatError("no tooldata", row=1, expected="PERS tooldata name:=" + _SHAPE)
         row = row_of(text, start.start())
         body = text[start.end() :].partition(";")[0]
+        if body.lstrip().upper().startswith("FALSE"):
+            raise FileFormatError(
+                "the tool stands still (robhold FALSE): its frame is not the flange's",
+                row=row,
+                column=start.group(1),
+                expected="TRUE",
+            )
         values = [number(found, row) for found in _NUMBERS.findall(body)]
         if len(values) < 7:
             raise FileFormatError(f"{len(values)} numbers", row=row, column=start.group(1), expected=_SHAPE)

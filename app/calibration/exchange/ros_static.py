@@ -1,6 +1,7 @@
 """ROS: the command that publishes a static transform (tf2_ros); metres, quaternion x y z w by name.
 
-Read are the named form of ROS 2 and both forms of ROS 1: x y z yaw pitch roll, and x y z qx qy qz qw.
+Read are the named form of ROS 2 and both forms of ROS 1: x y z yaw pitch roll, and x y z qx qy qz qw; on a command
+line, also one that goes on after a backslash, or as `args` of a node in a launch file.
 """
 
 from __future__ import annotations
@@ -13,7 +14,9 @@ from app.calibration.exchange._frame import ToolFrame, frame_of, number, row_of,
 from app.errors import FileFormatError
 from app.geometry import convention, rotation_from_quaternion
 
-_COMMAND = re.compile(r"static_transform_publisher[ \t]+([^\n]*)")
+_COMMAND = re.compile(
+    r"""static_transform_publisher["']?(?:[ \t]+((?!name\s*=|args\s*=)[^\n>]*)|[^>]*?\bargs\s*=\s*["']([^"']*)["'])"""
+)
 _NAMED = re.compile(r"--([a-z-]+)[ =]+(\S+)")
 _EXPECTED = "static_transform_publisher --x … --qw … --frame-id flange --child-frame-id tool"
 
@@ -24,7 +27,7 @@ class RosStatic:
     suffix = ".sh"
 
     def knows(self, text: str) -> bool:
-        return _COMMAND.search(text) is not None
+        return _COMMAND.search(_joined(text)) is not None
 
     def write(self, frame: ToolFrame) -> str:
         w, *vector = frame.pose.quaternion
@@ -37,14 +40,20 @@ class RosStatic:
         )
 
     def read(self, text: str) -> ToolFrame:
-        found = _COMMAND.search(text)
+        found = _COMMAND.search(_joined(text))
         if not found:
             raise FileFormatError("no static transform", row=1, expected=_EXPECTED)
         row = row_of(text, found.start())
-        named = dict(_NAMED.findall(found.group(1)))
+        arguments = found.group(1) or found.group(2) or ""
+        named = dict(_NAMED.findall(arguments))
         if named:
             return _by_name(named, row)
-        return _by_place(found.group(1).split(), row)
+        return _by_place(arguments.split(), row)
+
+
+def _joined(text: str) -> str:
+    """Lines that go on after a backslash as one; places stay what they were."""
+    return text.replace("\\\r\n", "   ").replace("\\\n", "  ")
 
 
 def _by_name(named: dict[str, str], row: int) -> ToolFrame:

@@ -1,8 +1,16 @@
-"""URDF or xacro: a fixed joint from the flange to the tool; metres, rpy about fixed axes."""
+"""URDF or xacro: a fixed joint from the flange to the tool; metres, rpy about fixed axes.
+
+Xacro's expressions are understood where they hold numbers, pi and radians(…) only.
+"""
 
 from __future__ import annotations
 
+import ast
+import math
+import operator
+import re
 import xml.etree.ElementTree as ET
+from collections.abc import Callable
 
 import numpy as np
 
@@ -11,6 +19,15 @@ from app.errors import FileFormatError
 from app.geometry import convention
 
 _SHAPE = '<joint type="fixed"> with <parent>, <child> and <origin xyz rpy>'
+
+_WORD = re.compile(r"\$\{[^}]*\}|\S+")
+_SIGNS: dict[type, Callable[[float], float]] = {ast.USub: operator.neg, ast.UAdd: operator.pos}
+_OPERATIONS: dict[type, Callable[[float, float], float]] = {
+    ast.Add: operator.add,
+    ast.Sub: operator.sub,
+    ast.Mult: operator.mul,
+    ast.Div: operator.truediv,
+}
 
 
 class UrdfJoint:
@@ -55,10 +72,36 @@ class UrdfJoint:
 
 
 def _three(element: ET.Element, key: str) -> np.ndarray:
-    words = element.get(key, "0 0 0").split()
+    words = _WORD.findall(element.get(key, "0 0 0"))
     if len(words) != 3:
         raise FileFormatError(f"{len(words)} numbers", column=key, expected="3 numbers")
-    return np.array([number(word, None, key) for word in words])
+    return np.array([_value(word, key) for word in words])
+
+
+def _value(word: str, key: str) -> float:
+    """A number, or one of xacro's expressions of numbers and pi: `${-pi/2}`."""
+    if not word.startswith("${"):
+        return number(word, None, key)
+    try:
+        return number(repr(_worked_out(ast.parse(word[2:-1].strip(), mode="eval").body)), None, key)
+    except (SyntaxError, ValueError, ZeroDivisionError, OverflowError, RecursionError, MemoryError):
+        raise FileFormatError(
+            f"found {word[:40]!r}", column=key, expected="a number, or ${…} of numbers and pi"
+        ) from None
+
+
+def _worked_out(node: ast.expr) -> float:
+    if isinstance(node, ast.Constant) and isinstance(node.value, int | float):
+        return float(node.value)
+    if isinstance(node, ast.Name) and node.id == "pi":
+        return math.pi
+    if isinstance(node, ast.UnaryOp) and type(node.op) in _SIGNS:
+        return _SIGNS[type(node.op)](_worked_out(node.operand))
+    if isinstance(node, ast.BinOp) and type(node.op) in _OPERATIONS:
+        return _OPERATIONS[type(node.op)](_worked_out(node.left), _worked_out(node.right))
+    if isinstance(node, ast.Call) and getattr(node.func, "id", "") == "radians" and len(node.args) == 1:
+        return math.radians(_worked_out(node.args[0]))
+    raise ValueError("not an expression of numbers")
 
 
 FORMAT = UrdfJoint()

