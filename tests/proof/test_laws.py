@@ -144,3 +144,17 @@ def test_the_library_adds_the_torque_that_the_generator_does(key, topology, tmp_
     size = np.abs(ours).max()
     tolerance = INTERPOLATED if key == "delay" else SAME_TORQUE
     assert np.abs(theirs - ours)[moving].max() < tolerance * size
+
+
+def test_what_a_joint_carries_follows_from_where_it_stands_not_from_a_wrong_label(tmp_path):
+    _, path = random_arm("spherical_wrist", tmp_path, 1)
+    arm = read_arm(path)
+    requests = [Request("joint_compliance", {"joint": 3}), Request("wrong_convention", {"joint": 2})]
+    plan = Plan(kind="tracker", samples=24, noise=1e-9)
+    made = make(plan, arm, arm, requests, np.random.default_rng(3))
+    really = made.cell.q.copy()
+    really[:, 1] *= -1.0
+    bend = made.terms[0].parameters["compliance"] * made.cell.at(really).holding[:, 2]
+    shown = made.terms[0].parameters["compliance"] * made.cell.holding[:, 2]
+    assert np.abs(bend - shown).max() > 0.1 * np.abs(bend).max()  # else the test could not tell
+    assert np.allclose(world_with(made.cell, made.terms).dq[:, 2], -bend)

@@ -107,7 +107,14 @@ class StaticRecording:
         """The same measurements at other joint positions (m, n); drivers that follow from them are computed anew."""
         old = self.situation
         measured = old.torque if old.torque_source == "measured" else None
-        new = situation_for(robot, q, sessions=self.session, torque=measured)
+        new = situation_for(
+            robot,
+            q,
+            sessions=self.session,
+            torque=measured,
+            payload=old.payload,
+            payload_com=old.payload_com,
+        )
         situation = replace(
             old, q=q, torque=new.torque, moment=new.moment, approach=new.approach, move=new.move
         )
@@ -122,7 +129,7 @@ class StaticRecording:
 
 
 _PER_ROW = {"rows", "points", "orientations", "lengths", "target", "session", "pose"}
-_PER_ROW_SITUATION = {"q", "torque", "moment", "approach", "move", "time", "temperature", "order"}
+_PER_ROW_SITUATION = {"q", "torque", "moment", "approach", "move", "time", "temperature", "order", "payload"}
 
 
 def _cut(array: np.ndarray | None, keep: np.ndarray) -> np.ndarray | None:

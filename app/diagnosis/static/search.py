@@ -13,7 +13,7 @@ from app.diagnosis.static.library import Candidate, Library, library
 from app.diagnosis.static.noise import weights_from
 from app.diagnosis.static.scan import SCAN_ROWS, with_row
 from app.diagnosis.static.score import Basis, Scores, basis, family_wise, flips, score_library, significance
-from app.diagnosis.static.serial import stretch, stretch_flips
+from app.diagnosis.static.serial import coloured_score, stretch, stretch_flips
 
 #: A term is taken only where chance would do as well in at most this share of searches.
 LEVEL = 0.01
@@ -128,9 +128,19 @@ def _take(
             p_value = max(p_value, family_wise(scores.score[index], null))
             if p_value > level:
                 return None
+        if follows_the_clock(candidate):
+            p_value = max(p_value, family_wise(coloured_score(trial, len(trial.terms) - 1), scores.null))
+            if p_value > level:
+                continue
         trial = fit(trial.recording, trial.setup, trial.terms, weights_from(trial), held=trial.held)
         return trial, p_value
     return None
+
+
+def follows_the_clock(candidate: Candidate) -> bool:
+    """True for steps and drifts, which errors that remember imitate."""
+    where = candidate.place.where
+    return candidate.place.scan or "from_row" in where or where.get("driver") == "time"
 
 
 def with_ghosts(pose: np.ndarray, ghosts: int) -> np.ndarray:

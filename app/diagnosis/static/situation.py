@@ -31,6 +31,7 @@ class Situation:
         time_unit: "s" or "row".
         temperature: (m,) above the first row's [K], or None.
         order: (m,) 1-based number of the row among the data rows, before any was set aside.
+        payload: (m,) known mass at the flange [kg], or None; payload_com (3,) its centre [m].
     """
 
     chain: Chain
@@ -46,6 +47,8 @@ class Situation:
     time_unit: str
     temperature: np.ndarray | None
     order: np.ndarray
+    payload: np.ndarray | None = None
+    payload_com: np.ndarray | None = None
 
     @property
     def joint_count(self) -> int:
@@ -126,4 +129,6 @@ def situation_for(
         time_unit="row" if time is None else "s",
         temperature=None if temperature is None else temperature - temperature[0],
         order=np.arange(1, m + 1) if order is None else order,
+        payload=payload,
+        payload_com=payload_com,
     )

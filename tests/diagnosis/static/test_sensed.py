@@ -4,8 +4,10 @@ import numpy as np
 import pytest
 
 from app.diagnosis.static.reading import read_static
+from app.diagnosis.static.situation import situation_for
 from app.kinematics import load_robot
 from app.recordings import read_table
+from tests.diagnosis.static.simulating import poses, tracker_rows, write_tracker
 
 TURNED = 1e-9
 
@@ -29,3 +31,14 @@ def test_torques_counted_either_way_become_holding_torques(tmp_path, sign):
     read, held = recording(tmp_path, sign)
     np.testing.assert_allclose(read.situation.torque, held, atol=TURNED)
     assert any("turned over" in note for note in read.notes) == (sign < 0)
+
+
+def test_a_known_load_is_still_carried_when_a_convention_is_undone(arm, tmp_path):
+    rng = np.random.default_rng(9)
+    q = poses(arm, rng, 20)
+    load = np.where(np.arange(20) % 2, 5.0, 0.0)
+    table = write_tracker(tmp_path / "r.csv", arm, q, tracker_rows(arm, q, rng=rng), extra={"payload_kg": load})
+    recording = read_static(table, arm)
+    again = recording.with_joints(arm, recording.q)
+    assert np.allclose(again.situation.torque, recording.situation.torque)
+    assert np.ptp(recording.situation.torque[:, 1] - situation_for(arm, q).torque[:, 1]) > 1.0

@@ -16,6 +16,7 @@ from app.proof.generator.rotations import turn_vector
 
 LAWS = "app.proof.generator.effects.static"
 OUTSIDE = "app.proof.generator.effects.outside.static"
+WRITTEN = "wrong_convention"  # of what is shown, not of what is there
 
 
 @dataclass(frozen=True, eq=False)
@@ -117,8 +118,37 @@ class World:
 
 def world_with(cell: Cell, terms: Sequence[Term]) -> World:
     """The world of a cell with these terms in it."""
+    world = _nothing(*cell.q.shape)
+    _write(cell, terms, world)
+    there = standing(cell, terms)
+    for term in terms:
+        if term.effect != WRITTEN:
+            law_of(term.effect).add(there, term, world)
+    return world
+
+
+def _write(cell: Cell, terms: Sequence[Term], world: World) -> None:
+    for term in terms:
+        if term.effect == WRITTEN:
+            law_of(term.effect).add(cell, term, world)
+
+
+def standing(cell: Cell, terms: Sequence[Term]) -> Cell:
+    """The cell at the positions its joints really have where they are shown by a wrong convention.
+
+    What a joint carries, where its gear stands and which way it came from follow from these.
+    """
+    if not any(term.effect == WRITTEN for term in terms):
+        return cell
     m, n = cell.q.shape
-    world = World(
+    world = _nothing(m, n)
+    _write(cell, terms, world)
+    return cell.at(world.flipped * cell.q + world.dq)
+
+
+def _nothing(m: int, n: int) -> World:
+    """A world without effects."""
+    return World(
         np.zeros((m, n)),
         np.zeros((m, n + 1, 3)),
         np.zeros((m, n + 1, 3)),
@@ -129,9 +159,6 @@ def world_with(cell: Cell, terms: Sequence[Term]) -> World:
         np.ones(n),
         np.zeros((m, n)),
     )
-    for term in terms:
-        law_of(term.effect).add(cell, term, world)
-    return world
 
 
 def law_of(key: str):

@@ -20,6 +20,7 @@ from app.proof.generator.static.cell import (
     law_of,
     scaled_to,
     seen,
+    standing,
     true_stance,
     world_with,
 )
@@ -151,7 +152,7 @@ def make(
         points=points,
         lengths=_lengths(plan, cell, world, noise) if plan.wire else None,
         orientations=_orientations(cell, world, rng) if plan.orientation else None,
-        torques=_torques(cell, world, rng) if plan.torque_sensors else None,
+        torques=_torques(standing(cell, terms), world, rng) if plan.torque_sensors else None,
         outliers=chosen,
         pose=pose,
     )
