@@ -32,7 +32,7 @@ def test_the_sheet_holds_picture_points_residuals_uncertainty_conditions_and_sig
         "YELLOW",
     ):
         assert part in sheet, part
-    assert sheet.count("<svg") == 3
+    assert sheet.count("<svg") == 4
 
 
 def test_the_sheet_needs_nothing_from_outside(sheet):

@@ -8,6 +8,7 @@ import numpy as np
 
 from app.calibration.captures import of_role, stack
 from app.calibration.quality.region import ellipsoid, half_widths
+from app.calibration.report.cell_picture import cell_picture
 from app.calibration.report.pictures import distance_picture, tilt_picture, tool_picture
 from app.calibration.solving import Solved
 from app.calibration.wording import FALLBACK, name_of, phrase
@@ -92,7 +93,7 @@ class _Sheet:
             blocks += [
                 f"<h2>{t('touches')}</h2>",
                 f'<div class="row"><div class="wide">{distance_picture(result, solved.left_out, t)}</div>'
-                f"<div>{tilts}</div></div>",
+                f"<div>{tilts}</div><div>{cell_picture(result, points.captures, points.robot, t)}</div></div>",
                 self._touches(),
                 f"<h2>{t('figures')}</h2>",
                 self._figures(),

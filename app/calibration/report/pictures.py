@@ -11,7 +11,7 @@ from app.calibration.quality.region import ellipsoid
 from app.calibration.result import ToolCalibration
 from app.units import deg, mm
 
-_INK, _SOFT, _TIP = "#1d2733", "#8a96a3", "#d9622b"
+INK, SOFT, TIP = "#1d2733", "#8a96a3", "#d9622b"
 _AXES = (("X", "#c0392b"), ("Y", "#2e8b57"), ("Z", "#2a62b8"))
 _TRIAD = 42.0
 
@@ -34,8 +34,8 @@ def tool_picture(result: ToolCalibration, words: Words, width: int = 300, height
     tip = origin + scale * flat
     parts = [
         f'<svg viewBox="0 0 {width} {height}" role="img" aria-label="{words("picture_tool")}">',
-        f'<rect x="{origin[0] - 26:.1f}" y="{origin[1] - 9:.1f}" width="52" height="9" rx="2" fill="{_SOFT}"/>',
-        _line(origin, tip, _INK, 5.0, 0.35),
+        f'<rect x="{origin[0] - 26:.1f}" y="{origin[1] - 9:.1f}" width="52" height="9" rx="2" fill="{SOFT}"/>',
+        line(origin, tip, INK, 5.0, 0.35),
         *_triad(origin, view, np.eye(3), 0.8),
         *_triad(tip, view, result.T_flange_tool.rotation, 1.0),
     ]
@@ -47,12 +47,12 @@ def tool_picture(result: ToolCalibration, words: Words, width: int = 300, height
         a, b = np.sqrt(np.maximum(values[::-1], 0.0)) * scale * factor
         turn = deg(np.arctan2(vectors[1, 1], vectors[0, 1]))
         parts.append(
-            f'<ellipse cx="{tip[0]:.1f}" cy="{tip[1]:.1f}" rx="{a:.1f}" ry="{b:.1f}" fill="{_TIP}" '
-            f'fill-opacity="0.18" stroke="{_TIP}" transform="rotate({turn:.1f} {tip[0]:.1f} {tip[1]:.1f})"/>'
+            f'<ellipse cx="{tip[0]:.1f}" cy="{tip[1]:.1f}" rx="{a:.1f}" ry="{b:.1f}" fill="{TIP}" '
+            f'fill-opacity="0.18" stroke="{TIP}" transform="rotate({turn:.1f} {tip[0]:.1f} {tip[1]:.1f})"/>'
         )
-        parts.append(_text(6, height - 6, words("picture_region", factor=factor), _SOFT, 10))
-    parts.append(f'<circle cx="{tip[0]:.1f}" cy="{tip[1]:.1f}" r="3.5" fill="{_TIP}"/>')
-    parts.append(_text(origin[0] + 30, origin[1] - 12, words("picture_flange"), _SOFT, 10))
+        parts.append(text(6, height - 6, words("picture_region", factor=factor), SOFT, 10))
+    parts.append(f'<circle cx="{tip[0]:.1f}" cy="{tip[1]:.1f}" r="3.5" fill="{TIP}"/>')
+    parts.append(text(origin[0] + 30, origin[1] - 12, words("picture_flange"), SOFT, 10))
     return "".join(parts) + "</svg>"
 
 
@@ -71,24 +71,24 @@ def distance_picture(
 
     parts = [f'<svg viewBox="0 0 {width} {height}" role="img" aria-label="{words("picture_distance")}">']
     for value in _ticks(top):
-        parts.append(_line(np.array([left, y(value)]), np.array([width, y(value)]), _SOFT, 0.5, 0.5))
-        parts.append(_text(left - 4, y(value) + 3, f"{value:g}", _SOFT, 9, "end"))
+        parts.append(line(np.array([left, y(value)]), np.array([width, y(value)]), SOFT, 0.5, 0.5))
+        parts.append(text(left - 4, y(value) + 3, f"{value:g}", SOFT, 9, "end"))
     for i, value in enumerate(distances):
         x = left + step * (i + 0.5)
-        colour = _TIP if i == result.worst else _INK
+        colour = TIP if i == result.worst else INK
         wide = min(step * 0.32, 22.0)
         parts.append(_bar(x - wide, y(value), wide, height - bottom - y(value), colour))
         if i in shifts:
-            parts.append(_bar(x, y(shifts[i]), wide, height - bottom - y(shifts[i]), _SOFT))
-        parts.append(_text(x, height - bottom + 13, str(i + 1), _INK, 10, "middle"))
+            parts.append(_bar(x, y(shifts[i]), wide, height - bottom - y(shifts[i]), SOFT))
+        parts.append(text(x, height - bottom + 13, str(i + 1), INK, 10, "middle"))
     mean = y(mm(result.mean))
     parts.append(
-        f'<line x1="{left}" y1="{mean:.1f}" x2="{width}" y2="{mean:.1f}" stroke="{_TIP}" stroke-dasharray="4 3"/>'
+        f'<line x1="{left}" y1="{mean:.1f}" x2="{width}" y2="{mean:.1f}" stroke="{TIP}" stroke-dasharray="4 3"/>'
     )
-    parts.append(_text(left, 10, words("picture_dark"), _INK, 10))
+    parts.append(text(left, 10, words("picture_dark"), INK, 10))
     if shifts:
-        parts.append(_text(left, 23, words("picture_light"), _SOFT, 10))
-    parts.append(_text(width / 2, height - 2, words("column_touch"), _SOFT, 10, "middle"))
+        parts.append(text(left, 23, words("picture_light"), SOFT, 10))
+    parts.append(text(width / 2, height - 2, words("column_touch"), SOFT, 10, "middle"))
     return "".join(parts) + "</svg>"
 
 
@@ -111,14 +111,14 @@ def tilt_picture(rotations: np.ndarray, words: Words, width: int = 190, height: 
         if ring <= most + 1.0:
             parts.append(
                 f'<circle cx="{centre[0]:.1f}" cy="{centre[1]:.1f}" r="{ring * scale:.1f}" fill="none" '
-                f'stroke="{_SOFT}" stroke-opacity="0.5"/>'
+                f'stroke="{SOFT}" stroke-opacity="0.5"/>'
             )
-            parts.append(_text(centre[0] + 2, centre[1] - ring * scale - 2, f"{ring:g}°", _SOFT, 9))
+            parts.append(text(centre[0] + 2, centre[1] - ring * scale - 2, f"{ring:g}°", SOFT, 9))
     for i, (tilt, angle) in enumerate(zip(deg(tilts), around, strict=True)):
         x, y = centre + scale * tilt * np.array([np.cos(angle), np.sin(angle)])
-        parts.append(f'<circle cx="{x:.1f}" cy="{y:.1f}" r="7" fill="{_INK}"/>')
-        parts.append(_text(x, y + 3, str(i + 1), "white", 9, "middle"))
-    parts.append(_text(width / 2, height - 3, words("picture_tilt"), _SOFT, 10, "middle"))
+        parts.append(f'<circle cx="{x:.1f}" cy="{y:.1f}" r="7" fill="{INK}"/>')
+        parts.append(text(x, y + 3, str(i + 1), "white", 9, "middle"))
+    parts.append(text(width / 2, height - 3, words("picture_tilt"), SOFT, 10, "middle"))
     return "".join(parts) + "</svg>"
 
 
@@ -128,12 +128,13 @@ def _triad(place: np.ndarray, view: np.ndarray, rotation: np.ndarray, strength: 
         end = place + _TRIAD * strength * (view @ rotation[:, column])
         if np.linalg.norm(end - place) < 6.0:
             continue
-        out.append(_line(place, end, colour, 2.0, strength))
-        out.append(_text(end[0] + 3, end[1] + 3, name, colour, 10))
+        out.append(line(place, end, colour, 2.0, strength))
+        out.append(text(end[0] + 3, end[1] + 3, name, colour, 10))
     return out
 
 
-def _line(a: np.ndarray, b: np.ndarray, colour: str, wide: float, strength: float) -> str:
+def line(a: np.ndarray, b: np.ndarray, colour: str, wide: float, strength: float) -> str:
+    """A straight line between two places (2,)."""
     return (
         f'<line x1="{a[0]:.1f}" y1="{a[1]:.1f}" x2="{b[0]:.1f}" y2="{b[1]:.1f}" stroke="{colour}" '
         f'stroke-width="{wide}" stroke-opacity="{strength}" stroke-linecap="round"/>'
@@ -144,7 +145,8 @@ def _bar(x: float, y: float, wide: float, high: float, colour: str) -> str:
     return f'<rect x="{x:.1f}" y="{y:.1f}" width="{wide:.1f}" height="{max(high, 0.5):.1f}" fill="{colour}"/>'
 
 
-def _text(x: float, y: float, text: str, colour: str, size: int, anchor: str = "start") -> str:
+def text(x: float, y: float, text: str, colour: str, size: int, anchor: str = "start") -> str:
+    """A few words, already safe."""
     return f'<text x="{x:.1f}" y="{y:.1f}" fill="{colour}" font-size="{size}" text-anchor="{anchor}">{text}</text>'
 
 

@@ -1,0 +1,86 @@
+"""What goes wrong while teaching, seen by a person: by name, with the advice; and the sheet on one page of paper."""
+
+import re
+
+import numpy as np
+import pytest
+
+from app.calibration.report import report
+from app.calibration.solving import solve_file
+from app.resources import STATIC
+from app.session import Session
+from app.session.actions import Calculate, ChooseMode, Enter
+from tests.calibration.drawing import captures, touches
+from tests.pendant.tool.test_checks_shown import CASES
+from tests.session.wizard import wizard_actions
+
+pytestmark = [pytest.mark.browser, pytest.mark.xdist_group("browser")]
+
+SEEN = ("bumped spike", "wrong Euler order", "orientation changed", "too few")
+TABLE_1 = STATIC / "samples" / "xiong2012_table1.csv"
+
+
+def test_a_person_reads_what_went_wrong_by_name_with_the_advice(serve, sit_down, tmp_path):
+    person = sit_down(serve(robot="ur10e"))
+    for case in SEEN:
+        _, text, words = CASES[case]
+        path = tmp_path / f"{case.replace(' ', '_')}.csv"
+        path.write_text(text(), encoding="utf-8")
+        with person.page.expect_file_chooser() as chooser:
+            person.click("Load a points file")
+        chooser.value.set_files(path)
+        place = "refused" if case == "too few" else "notes"
+        shown = person.page.get_by_test_id(place).filter(has_text=words[0])
+        shown.first.wait_for(timeout=60_000)
+        person.at_rest()
+        said = person.seen(place)
+        assert all(word in said for word in words), said
+        person.picture(f"check_{case.replace(' ', '_')}")
+        if person.state.result is not None:
+            person.click("Cancel")
+            person.until(lambda: person.state.result is None, "the list again")
+    assert not person.faults
+
+
+def taught_in_the_wizard():
+    session = Session(robot="ur10e")
+    for action in wizard_actions()[0]:
+        session.do(action)
+    return session.state.result
+
+
+def typed():
+    session = Session()
+    session.do(ChooseMode("direct"))
+    session.do(Enter((0.1, 0.0, 0.3), (0.0, 0.5, 0.0)))
+    return session.do(Calculate()).result
+
+
+def many_touches_with_remarks(tmp_path):
+    """Sixteen touches, one of which missed, several of them alike."""
+    from tests.pendant.tool.test_checks_shown import text_of
+
+    rotations, positions = touches(16, 0.1, 1e-4, 2)
+    positions[3] += np.array([0.0, 0.004, 0.0])
+    path = tmp_path / "many.csv"
+    path.write_text(text_of(captures(rotations, positions)), encoding="utf-8")
+    return solve_file(path)
+
+
+@pytest.mark.parametrize("language", ["en", "zh"])
+def test_the_sheet_prints_on_exactly_one_page(language, chromium, tmp_path):
+    sheets = {
+        "paper": solve_file(TABLE_1, method="pairwise"),
+        "wizard": taught_in_the_wizard(),
+        "typed": typed(),
+        "many": many_touches_with_remarks(tmp_path),
+    }
+    page = chromium.new_page()
+    for name, solved in sheets.items():
+        page.set_content(report(solved, name="torch", made="2026-01-02 03:04", language=language))
+        paper = page.pdf(prefer_css_page_size=True, print_background=True)
+        assert len(re.findall(rb"/Type\s*/Page\b(?!s)", paper)) == 1, name
+        box = re.search(rb"/MediaBox\s*\[0 0 ([\d.]+) ([\d.]+)\]", paper)
+        assert box is not None
+        np.testing.assert_allclose([float(v) for v in box.groups()], [595, 842], atol=1.0)  # A4 in points
+    page.close()
