@@ -14,9 +14,11 @@ class Aids:
         closeup: views that go near the tip.
         next_touch: the proposal of the next touch.
         handle: the drag handle.
+        touch: a hand that brings the tip to the spike; strokes along the tool's axes are always there.
     """
 
     distance: bool = True
     closeup: bool = True
     next_touch: bool = True
     handle: bool = True
+    touch: bool = True

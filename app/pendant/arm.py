@@ -88,6 +88,11 @@ class ArmView:
         self._q = q.copy()
 
     @property
+    def q(self) -> np.ndarray:
+        """(n,) where it is shown [rad or m]."""
+        return self._q.copy()
+
+    @property
     def visible(self) -> bool:
         return self._root.visible
 

@@ -15,17 +15,21 @@ from app.geometry import Pose
 from app.kinematics import IkResult, RobotModel, solve_ik
 from app.pendant.aids import Aids
 from app.pendant.dragging import Dragging
+from app.pendant.exercising import aids_of, cell_key
 from app.pendant.jogging import Jogging
 from app.pendant.layout import Layout
 from app.pendant.loaded import cell_of
 from app.pendant.moving import Moving
 from app.pendant.page import Page
+from app.pendant.shelf import Shelf
 from app.pendant.stage import Stage
 from app.pendant.texts import FALLBACK, error_text, text
+from app.pendant.trail import Trail
 from app.pendant.worker import Job, Worker
 from app.session import AnyAction, Session, SessionState
 from app.session.state import as_tuple, robot_named
 from app.simulation.world import World
+from app.training.cell import world_of
 
 _LOG = logging.getLogger(__name__)
 _LOG_LENGTH = 200
@@ -38,17 +42,24 @@ class Pendant(Moving):
         client: viser's handle of the browser.
         session: whose state is shown.
         world_of: the cell of an arm.
+        shelf: all sessions of the server.
     """
 
-    def __init__(self, client: viser.ClientHandle, session: Session, world_of: Callable[[RobotModel], World]):
-        self.client, self.session, self._world_of = client, session, world_of
+    def __init__(
+        self,
+        client: viser.ClientHandle,
+        session: Session,
+        world_of: Callable[[RobotModel], World],
+        shelf: Shelf,
+    ):
+        self.client, self.session, self._world_of, self.shelf = client, session, world_of, shelf
         self.language, self.vocabulary, self.dark, self.convention = FALLBACK, "", False, "ZYX"
-        self.aids = Aids()
+        self.aids = aids_of(session.state)
         self.log: list[tuple[float, str, str]] = []
         self.open = True
+        self.trail, self.trainee, self.exercise = Trail(), "", ""
         self.dragging, self.jogging = Dragging(self), Jogging(self)
         self.q = np.array(session.state.q)
-        self._source: object = None
         self.world = self._own_world()
         self.rng = np.random.default_rng(abs(hash(session.name)) if session.name else 0)
         self.worker = Worker(f"pendant-{client.client_id}", self._around)
@@ -82,8 +93,8 @@ class Pendant(Moving):
         self.settle()
         before = self.session.state
         state = self.session.do(action)
-        if state.robot != before.robot:
-            self.q = np.array(state.q)
+        if state.robot != before.robot or (state.running is None) != (before.running is None):
+            self.q, self.aids = np.array(state.q), aids_of(state)
             self.world = self._own_world()
             self.rebuild()
         else:
@@ -97,7 +108,7 @@ class Pendant(Moving):
         state = self.session.state
         if as_tuple(self.q) != state.q:
             self.show(np.array(state.q))
-        if (state.source, state.cell_model) != self._source:
+        if any(a is not b for a, b in zip(cell_key(state), self._source, strict=True)):
             self.world = self._own_world()
             self.stage.cell(self.world)
         self.stage.refresh(state)
@@ -106,7 +117,10 @@ class Pendant(Moving):
     def _own_world(self) -> World:
         """The cell of this arm, as the session has it."""
         state = self.session.state
-        self._source = (state.source, state.cell_model)
+        self._source = cell_key(state)
+        exercise = world_of(state)
+        if exercise is not None:
+            return exercise
         return cell_of(self._world_of(self.model), state)
 
     def rebuild(self) -> None:

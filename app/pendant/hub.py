@@ -69,6 +69,10 @@ class Hub:
         if session is not None:
             session.close()
 
+    def in_use(self, name: str) -> bool:
+        """True where a browser shows this session now."""
+        return name in self._views
+
     def session(self, name: str) -> Session | None:
         """An open session by name."""
         return self._open.get(name)

@@ -12,6 +12,7 @@ from app.pendant.inputs import Inputs
 from app.pendant.jogging import Jogging
 from app.pendant.page import Page
 from app.pendant.stage import Stage
+from app.pendant.trail import Trail
 from app.pendant.worker import Job
 from app.session import Session
 from app.session.actions import Move
@@ -31,6 +32,7 @@ class Moving(Inputs):
     stage: Stage
     page: Page
     q: np.ndarray
+    trail: Trail
     _numbers_at = 0.0
 
     def go(self, q: np.ndarray, then: Job | None = None) -> None:
@@ -54,6 +56,8 @@ class Moving(Inputs):
         """Draws the arm at q (n,); the numbers follow a little slower."""
         self.q = np.asarray(q, float)
         self.stage.pose(self.q, self.world)
+        if self.session.state.running is not None:
+            self.trail.passing(self.q)
         now = time.monotonic()
         if now - self._numbers_at >= _SHOWN:
             self._numbers_at = now
@@ -64,7 +68,7 @@ class Moving(Inputs):
     def settle(self) -> None:
         """Writes down where the arm stands, where that is not yet done."""
         if as_tuple(self.q) != self.session.state.q:
-            self.session.do(Move(as_tuple(self.q)))
+            self.session.do(Move(as_tuple(self.q), self.trail.take()))
 
     def _travel(
         self, stops: list[np.ndarray], arrived: Callable[[int], object], rest: float

@@ -37,6 +37,11 @@ class Page:
             with tabs.add_tab(pendant.t(f"{screen.key}.title")):
                 self._build(screen)
 
+    @property
+    def views(self) -> tuple[ScreenView, ...]:
+        """The panels and screens that are on the page."""
+        return tuple(self._views)
+
     def _build(self, screen: Screen) -> None:
         """One tab; where it cannot be made, the others still can."""
         try:

@@ -15,8 +15,10 @@ import viser
 from app.kinematics import RobotModel
 from app.pendant.client import Pendant
 from app.pendant.hub import Hub
-from app.session import Store
+from app.pendant.shelf import Shelf
+from app.session import Session, Store
 from app.simulation.world import World, default_world
+from app.training.records import Records
 
 _TOKEN = "teachframe.session"
 _ANSWER_WITHIN = 10.0  # seconds a browser has to say which session is its own
@@ -44,6 +46,7 @@ class PendantServer:
     ):
         self.hub = Hub(store, robot)
         self._host, self._world_of = host, world_of
+        self._shelf = Shelf(store, Records(store.database), self.hub.in_use, self._switch)
         self._pendants: dict[int, Pendant] = {}
         self._lock = threading.Lock()
         with contextlib.redirect_stdout(io.StringIO()):  # its own banner would stand before our address
@@ -93,13 +96,32 @@ class PendantServer:
         session, how = self.hub.enter(token)
         if session.name != token:
             client.local_storage.set_item(_TOKEN, session.name)
-        pendant = Pendant(client, session, self._world_of)
+        self._show(client, session, how)
+        if client.client_id not in self._viser.get_clients():  # left while the page was made
+            self._gone(client)
+
+    def _show(self, client: viser.ClientHandle, session: Session, how: str) -> None:
+        pendant = Pendant(client, session, self._world_of, self._shelf)
         with self._lock:
             self._pendants[client.client_id] = pendant
         self.hub.show(session.name, pendant)
         pendant.greet(how)
-        if client.client_id not in self._viser.get_clients():  # left while the page was made
-            self._gone(client)
+
+    def _switch(self, number: int, name: str) -> None:
+        """Hands a browser another session, on a thread of its own: the worker that asked for it ends with its view."""
+        threading.Thread(target=self._switched, args=(number, name), daemon=True).start()
+
+    def _switched(self, number: int, name: str) -> None:
+        client = self._viser.get_clients().get(number)
+        if client is None or self.hub.in_use(name):
+            return
+        self._gone(client)
+        session, how = self.hub.enter(name)
+        client.local_storage.set_item(_TOKEN, session.name)
+        with client.atomic():
+            client.gui.reset()
+            client.scene.reset()
+        self._show(client, session, how)
 
     def _gone(self, client: viser.ClientHandle) -> None:
         with self._lock:

@@ -71,7 +71,11 @@ class Stage:
     def cell(self, world: World) -> None:
         """Table, spike and tool of another cell of the same arm."""
         before, self._world = self._world, world
-        self._cell = draw_cell(self._scene, world)
+        stands = before.p_base_spike_drawn, before.table_height
+        if self._held is None or not (
+            np.array_equal(stands[0], world.p_base_spike_drawn) and stands[1] == world.table_height
+        ):
+            self._cell = draw_cell(self._scene, world)
         if self._held is None or before.picture is not world.picture:
             if self._held is not None:
                 self._held.remove()

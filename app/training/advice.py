@@ -91,7 +91,7 @@ def _accuracy(exercise: Exercise, figures: dict[str, float], state: SessionState
     if residual is not None and figures["tool_mm"] > _DECEIVED * residual:
         out.append(Advice("deceived", {"residual": f"{residual:.2f}", "error": f"{figures['tool_mm']:.2f}"}))
     turned = _least_turn(state)
-    if turned is not None and turned < _TILT:
+    if turned is not None and round(turned) < _TILT:
         out.append(Advice("tilt", {"deg": f"{turned:.0f}", "aim": f"{_TILT:.0f}"}))
     elif residual is not None:
         out.append(Advice("more_touches"))

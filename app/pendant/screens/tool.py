@@ -247,7 +247,9 @@ class _View:
         self._touches.visible = self._method.visible = not done and mode.most_touches > 0
         step = state.missing[0] if state.missing else None
         touched = step is not None and bool(TOUCHED & set(step.roles))
-        self._assist.visible = not done and (touched or (step is not None and step.role in AXES))
+        self._assist.visible = not done and (
+            (touched and self.pendant.aids.touch) or (step is not None and step.role in AXES)
+        )
         self._name.visible = self._decide.visible = not taken
         self._again.visible = taken
         self._calculate.disabled = not state.captures and state.mode != DIRECT

@@ -1,0 +1,44 @@
+"""The end of an attempt: its score, kept in the records and shown."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from app.pendant.screens._training import cards, plots
+from app.session.actions import Finish
+from app.training.attempt import last_attempt
+from app.training.exercise import exercise
+from app.training.score import ScoreCard, score
+
+if TYPE_CHECKING:
+    from app.pendant.client import Pendant
+
+_ASPECT = 1.9  # width over height of the plot
+
+
+def finish(pendant: Pendant, trainee: str, action: Finish) -> ScoreCard:
+    """Ends the exercise, keeps its score and shows it."""
+    pendant.do(action)
+    attempt = last_attempt(pendant.session.entries)
+    chosen = exercise(attempt[0].action.exercise)  # type: ignore[union-attr]
+    card = score(chosen, attempt)
+    pendant.shelf.records.add(trainee or pendant.session.name, pendant.session.name, card)
+    if card.given_up:
+        pendant.say("info", pendant.t("training.gave_up"))
+    else:
+        pendant.say("good", pendant.t("training.scored", total=f"{card.total:.0f}"))
+        show(pendant, trainee, card)
+    return card
+
+
+def show(pendant: Pendant, trainee: str, card: ScoreCard) -> None:
+    """The score card over the page, with the history below it."""
+    chosen = exercise(card.exercise)
+    gui, t = pendant.client.gui, pendant.t
+    modal = gui.add_modal(chosen.said(pendant.language).title)
+    with modal:
+        gui.add_html(cards.after(pendant, card))
+        tries = pendant.shelf.records.history(trainee or pendant.session.name, chosen.key)
+        if len([c for c in tries if not c.given_up]) > 1:
+            gui.add_plotly(plots.history(pendant, tries, chosen.goal), aspect=_ASPECT)
+        pendant.clicked(gui.add_button(t("training.close")), modal.close)
