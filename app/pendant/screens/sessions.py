@@ -5,7 +5,7 @@ from __future__ import annotations
 import tempfile
 import time
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from app.errors import InputError
 from app.pendant import html
@@ -28,7 +28,7 @@ class _View:
         self._pendant = pendant
         gui, t = pendant.client.gui, pendant.t
         gui.add_html(html.paragraph(t("sessions.intro"), faint=True))
-        self._list = gui.add_dropdown(t("sessions.session"), ("-",))
+        self._list: Any = gui.add_dropdown(t("sessions.session"), ("-",))
         pendant.changed(self._list, "session", lambda _: self._about())
         self._text = gui.add_html("")
         jobs = {

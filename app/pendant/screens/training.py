@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import secrets
 import time
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from app.pendant.screens._training import cards, plots, scoring
 from app.pendant.screens._training.showing import Showing
@@ -28,12 +28,12 @@ class _View:
         self._said_at = 0.0
         self._name = gui.add_text(t("training.name"), pendant.trainee, hint=t("training.name_hint"))
         pendant.changed(self._name, "trainee", self._named)
-        self._list = gui.add_dropdown(t("training.exercise"), ("-",))
+        self._list: Any = gui.add_dropdown(t("training.exercise"), ("-",))
         pendant.changed(self._list, "exercise", lambda _: self._choose())
         self._card = gui.add_html("")
         self._begin = gui.add_button(t("training.begin"))
         pendant.clicked(self._begin, self._start)
-        self._answer = gui.add_dropdown(t("training.answer"), ("-",), visible=False)
+        self._answer: Any = gui.add_dropdown(t("training.answer"), ("-",), visible=False)
         self._number = gui.add_number(t("training.number_touch"), 0, min=0, max=30, step=1, visible=False)
         self._end = gui.add_button(t("training.finish"), visible=False)
         pendant.clicked(self._end, self._finish)
@@ -43,7 +43,7 @@ class _View:
         with self._history:
             self._last = gui.add_button(t("training.last_card"), color="gray")
             pendant.clicked(self._last, self._show_last)
-        self._plot = None
+        self._plot: Any = None
         self.showing = Showing(pendant)
         self._fill()
 

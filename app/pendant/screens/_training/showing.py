@@ -70,8 +70,8 @@ class Showing:
         pendant.jogging.must_not_be_stopped()
         if pendant.session.state.robot != FIRST_ROBOT:
             pendant.do(ChooseRobot(FIRST_ROBOT))  # makes the page anew: another Showing plays
-            view = next(v for v in pendant.page.views if getattr(v, "showing", None) is not None)
-            view.showing.play(key)
+            for showing in filter(None, (getattr(view, "showing", None) for view in pendant.page.views)):
+                showing.play(key)
             return
         demo, stops = reachable(pendant.model, mode)
         if not demo.captures:
