@@ -17,7 +17,8 @@ from app.diagnosis.motion.search import Term
 from app.diagnosis.motion.system import System
 
 if TYPE_CHECKING:
-    from app.diagnosis.motion.study import Corrections, Study
+    from app.diagnosis.motion.corrections import Corrections
+    from app.diagnosis.motion.study import Study
 
 SAME_PATH = 0.02  # rad or m: two runs this near to each other, all the time, follow one path
 LARGEST_LAG = 0.5  # share of the shorter run

@@ -25,14 +25,24 @@ class ExactFit:
         terms: their groups are linearised about `values`.
         values: per term, parameter -> value.
         covariances: per term, (k, k) in the order of the values, whitened noise of one.
+        jacobians: per term, (k, size), d values / d unknowns.
         offset: (M, n) torque that was moved to the other side.
     """
 
     terms: list[Term]
     values: list[dict[str, float]]
     covariances: list[np.ndarray]
+    jacobians: list[np.ndarray]
     solution: Solution
     offset: np.ndarray
+
+    def spreads(self, index: int, widened: np.ndarray) -> np.ndarray:
+        """(k,) standard deviations of a term's values, those of all unknowns (p,) being widened so much."""
+        at = len(self.solution.theta) - sum(t.group.size for t in self.terms[index:])
+        place = slice(at, at + self.terms[index].group.size)
+        J = self.jacobians[index] * widened[place]
+        variance = np.einsum("ij,jk,ik->i", J, self.solution.covariance[place, place], J)
+        return np.sqrt(np.maximum(variance, 0.0))
 
 
 def is_linear(group: Group) -> bool:
@@ -74,7 +84,7 @@ def exact_fit(system: System, prior: np.ndarray, terms: list[Term]) -> ExactFit:
                 change = max(change, abs(shapes[i][name] - old) / max(abs(old), 1e-9))
         if change < 1e-4 and _ > 0:
             break
-    values, covariances, at = [], [], len(solution.theta) - sum(t.group.size for t in terms)
+    values, covariances, jacobians, at = [], [], [], len(solution.theta) - sum(t.group.size for t in terms)
     for i, term in enumerate(terms):
         law = term.group.law
         assert law is not None
@@ -83,8 +93,9 @@ def exact_fit(system: System, prior: np.ndarray, terms: list[Term]) -> ExactFit:
         linear = parts[i][: len(law.linear)]
         values.append(law.values(linear, shapes[i]))
         J = _jacobian(law, linear, shapes[i], term.group.size)
+        jacobians.append(J)
         covariances.append(J @ solution.covariance[place, place] @ J.T)
-    return ExactFit(terms, values, covariances, solution, moved)
+    return ExactFit(terms, values, covariances, jacobians, solution, moved)
 
 
 def _linearised(group: Group, shape, linear: np.ndarray, samples) -> tuple[np.ndarray, np.ndarray]:

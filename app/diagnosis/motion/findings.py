@@ -9,6 +9,7 @@ import numpy as np
 from app.diagnosis.model import ModelEffect, SavedModel
 from app.diagnosis.motion.alternatives import alternatives_of
 from app.diagnosis.motion.errors import ErrorTable
+from app.diagnosis.motion.uncertainty import widening
 from app.diagnosis.result import Diagnosis, Evidence, Finding, Leftover, Noise, Parameter, Quality
 from app.kinematics import RobotModel
 from app.kinematics.robot import GRAVITY
@@ -25,8 +26,8 @@ def build(study: Study, robot: RobotModel, file: str) -> Diagnosis:
     )
     base = list(range(study.known))
     named = [i for i, good in enumerate(judgement.named) if good]
-    inflation = _inflation(study)
-    findings = [_finding(study, table, i, base + named, inflation) for i in named]
+    widened = widening(study.system, fit.solution, study.prior)
+    findings = [_finding(study, table, i, base + named, widened) for i in named]
     order = np.argsort([-judgement.gains[i] for i in named])
     findings = [findings[k] for k in order]
     after_residual = table.residual(base + named)
@@ -80,13 +81,11 @@ def build(study: Study, robot: RobotModel, file: str) -> Diagnosis:
     )  # fmt: skip
 
 
-def _finding(study: Study, table: ErrorTable, index: int, named: list[int], inflation: np.ndarray) -> Finding:
+def _finding(study: Study, table: ErrorTable, index: int, named: list[int], widened: np.ndarray) -> Finding:
     fit, term = study.fit, study.fit.terms[index]
     law, group = term.group.law, term.group
     assert law is not None
-    values, covariance = dict(fit.values[index]), fit.covariances[index]
-    std = np.sqrt(np.maximum(np.diag(covariance), 0.0))
-    std = std * (inflation[group.joint] if group.joint is not None else float(np.max(inflation)))
+    values, std = dict(fit.values[index]), fit.spreads(index, widened)
     if law.key == "delay":
         values["delay"] += study.corrections.delay
     if law.key == "gravity_direction":
@@ -114,19 +113,6 @@ def _finding(study: Study, table: ErrorTable, index: int, named: list[int], infl
         sentence=law.explain(where, values),
         equation=law.equation,
     )
-
-
-def _inflation(study: Study) -> np.ndarray:
-    """(n,) how much larger each joint's whitened residual is than the noise it was whitened by; 1 or more."""
-    out = []
-    solution = study.fit.solution
-    for part, col, pos, whitener in zip(
-        study.system.parts, solution.columns, solution.positions, study.system.whiteners, strict=True
-    ):
-        left = part.columns[:, 0] - part.columns[:, col] @ solution.theta[pos]
-        count = max(int(np.count_nonzero(whitener.weight)), 1)
-        out.append(np.sqrt(max(float(left @ left) / count, 1.0)))
-    return np.array(out)
 
 
 def _rms(residual: np.ndarray, usable: np.ndarray) -> float:

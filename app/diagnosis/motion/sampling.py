@@ -8,7 +8,7 @@ are taken evenly over the whole log.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -73,6 +73,12 @@ class Samples:
     def pool(self, values: np.ndarray) -> np.ndarray:
         """Means over each window; (M c, ...) -> (M, ...)."""
         return _pooled(values, self.points)
+
+    def with_torque(self, beyond: np.ndarray) -> Samples:
+        """The same, the torque's slope in time that of the description's torque and (M, n) beyond it."""
+        whole = self.pool(self.state.torque) + beyond
+        rate = np.repeat(_rate(self.t, whole, self.runs), self.points, axis=0)
+        return replace(self, state=replace(self.state, torque_rate=rate))
 
 
 #: Smoothed position, speed and acceleration of every sample, and how they were made.

@@ -13,7 +13,15 @@ import numpy as np
 from app.diagnosis.motion.bending import bent
 from app.diagnosis.motion.heldout import heldout_losses
 from app.diagnosis.motion.locate import located
-from app.diagnosis.motion.scoring import Board, Candidate, Solution, null_scores, score_all, solve
+from app.diagnosis.motion.scoring import (
+    Board,
+    Candidate,
+    Solution,
+    minus_log_p,
+    null_scores,
+    score_all,
+    solve,
+)
 from app.diagnosis.motion.system import Group, System
 from app.diagnosis.result import Progress
 
@@ -23,10 +31,8 @@ MOST_TERMS = 40
 MOST_EVENTS = {"payload_change": 2, "contact": 3}
 LOUD = 0.02  # share of what is left that a law must explain to come in past a wild null
 EVENT = 1.8  # times the null an event's score must be
-SHAPELY = 0.03  # share of its gain by which a law with a shape must beat one without
-NEAR = 0.8  # of what is there must a law explain before its shape is bent: shapes lie close on the grid
+EVENTS_TRIED = 3  # in one round: their windows overlap, the next is hardly another
 TRIES = 12  # candidates looked at closely in one round
-BETTER = 2.0  # an exchange must be worth this much
 DROP = 8.0  # a term must be worth this much beyond the Bayesian criterion
 
 
@@ -64,8 +70,8 @@ class Search:
 
     def board(self, solution: Solution, selected: list[Group], *, null: bool = True) -> Board:
         """Scores of everything that may still come in."""
-        taken = {_key(g) for g in selected[self.known :]}
-        groups = [g for g in self.groups if not g.base and _key(g) not in taken]
+        taken = {key_of(g) for g in selected[self.known :]}
+        groups = [g for g in self.groups if not g.base and key_of(g) not in taken]
         count = Counter(g.label for g in selected)
         bases = [
             g for g in self.windows if count[g.label] < MOST_EVENTS.get(g.label, 1) and len(self.windows[g])
@@ -101,7 +107,7 @@ class Search:
             return []
         sure = np.log10(len(board) / LEVEL)
         bar = _Bar(board, self.signs, sure)
-        rss, loss, tries = solution.rss, None, 0
+        rss, loss, tries, events = solution.rss, None, 0, 0
         more: list[Term] = []
         touched: set[int] = set()
         for index in np.argsort(-board.score):
@@ -113,21 +119,21 @@ class Search:
             # While much is left unexplained the null is as wild as the residual: then what was not
             # used for the fit must speak, and speak loudly.
             loud = gain >= LOUD * rss
-            if not loud and score <= bar.value:
+            if not loud and not windowed and score <= bar.value:
                 break
-            # Events are sought at very many places: noise that remembers finds one easily.
-            if windowed and score < EVENT * bar.value:
+            if windowed and (more or events == EVENTS_TRIED):
                 continue
             if more and (group.joint is None or group.joint in touched):
                 if group.joint is None:
                     break
                 continue
-            if (_key(group), candidate.window) in refused:
+            if (key_of(group), candidate.window) in refused:
                 continue
             tries += 1
             group = self._settle(candidate, selected)
-            if not self._possible(group, selected):
-                refused.add((_key(candidate.group), candidate.window))
+            if not self.possible(group, selected) or (windowed and not self._stands_out(group, selected)):
+                events += windowed
+                refused.add((key_of(candidate.group), candidate.window))
                 continue
             if loss is None:
                 loss = heldout_losses(self.system, selected, self.prior)
@@ -137,7 +143,7 @@ class Search:
                 good = falls < loss
             if not (good.all() or (windowed and good[0])):
                 if not more:  # beside others that came in just now it may only have been too late
-                    refused.add((_key(candidate.group), candidate.window))
+                    refused.add((key_of(candidate.group), candidate.window))
                 continue
             more.append(Term(group, 1.0 / (1 + FLIPS), candidate.visible))
             if group.joint is None:
@@ -146,12 +152,25 @@ class Search:
             selected, loss = [*selected, group], falls
         return more
 
-    def _possible(self, group: Group, selected: list[Group]) -> bool:
+    def possible(self, group: Group, selected: list[Group]) -> bool:
         """True where the values it would take are some that an arm can have."""
         if self.change or group.law is None:
             return True
         theta = solve(self.system, [*selected, group], self.prior).theta[-group.size :]
         return group.law.lawful(group.law.values(theta[: len(group.law.linear)], group.shape))
+
+    def _stands_out(self, event: Group, selected: list[Group]) -> bool:
+        """True where an event is far above the null of what it leaves.
+
+        It fills a few blocks, whose signs a flip leaves alike often enough: with the event still in it the null
+        is as high as the event itself.
+        """
+        with_it = [*selected, event]
+        gain, size = self.losses_without(with_it)[-1], event.size
+        solution = solve(self.system, with_it, self.prior)
+        null = null_scores(self.board(solution, with_it), self.signs)
+        # Events are sought at very many places: noise that remembers finds one easily.
+        return float(minus_log_p(np.array([gain]), np.array([size]))[0]) > EVENT * float(null.max())
 
     def _settle(self, candidate: Candidate, selected: list[Group]) -> Group:
         """The candidate with its window or its shape moved to where the fit is best."""
@@ -160,45 +179,6 @@ class Search:
         if candidate.window is not None:
             return located(self.system, self.prior, selected, candidate, law.key == "contact")
         return bent(self.system, self.prior, selected, candidate.group)
-
-    def exchange(self, terms: list[Term], stay: int = 0) -> list[Term]:
-        """Puts a simpler or better law of the same joint in the place of one that was taken."""
-        penalty = np.log(max(self.system.rows, 3))
-        for i in range(stay, len(terms)):
-            term = terms[i]
-            if term.group.joint is None:
-                continue
-            others = [t.group for k, t in enumerate(terms) if k != i]
-            gain = self.losses_without([t.group for t in terms])[i]
-            own = gain - penalty * _freedom(term.group)
-            taken = {_key(g) for g in others[self.known :]}
-            here = [
-                g for g in self.groups if g.joint == term.group.joint and not g.base and _key(g) not in taken
-            ]
-            solution = solve(self.system, others, self.prior)
-            board = score_all(self.system, solution, here, {}, [], null=False)
-            first = board.gain - penalty * np.array([_freedom(c.group) for c in board.all()])
-            for index in np.argsort(-first)[:4]:
-                if first[index] < NEAR * own:
-                    break
-                group = board[index].group
-                if group.label == term.group.label and group.where == term.group.where:
-                    continue
-                group = bent(self.system, self.prior, others, group)
-                if not self._possible(group, others):
-                    continue
-                swapped = [*others[:i], group, *others[i:]]
-                worth = self.losses_without(swapped)[i] - penalty * _freedom(group)
-                # Dry and viscous friction are in every joint: what needs a shape must be plainly better.
-                least = BETTER + SHAPELY * gain * (bool(group.shape) - bool(term.group.shape))
-                if worth > own + least:
-                    terms = [
-                        *terms[:i],
-                        Term(group, term.p_value, board[index].visible),
-                        *terms[i + 1 :],
-                    ]
-                    own = worth
-        return terms
 
     def backward(self, terms: list[Term], keep: int = 0) -> list[Term]:
         """Drops terms whose place others have taken; the first `keep` stay."""
@@ -242,13 +222,24 @@ class _Bar:
         return max(float(null_scores(self._board, self._signs).max()), self._sure)
 
 
+class _Bar:
+    """What a score must exceed; the null is drawn only where it is asked for."""
+
+    def __init__(self, board: Board, signs: np.ndarray, sure: float):
+        self._board, self._signs, self._sure = board, signs, sure
+
+    @cached_property
+    def value(self) -> float:
+        return max(float(null_scores(self._board, self._signs).max()), self._sure)
+
+
 def _freedom(group: Group) -> int:
     """Parameters of a law, its shape counted."""
     assert group.law is not None
     return len(group.law.linear) + len(group.shape)
 
 
-def _key(group: Group) -> tuple:
+def key_of(group: Group) -> tuple:
     """A law at a place counts once, whatever its shape."""
     ripple = group.law is not None and group.law.key == "torque_ripple"
     shape = tuple(sorted(group.shape.items())) if ripple else ()

@@ -9,6 +9,7 @@ import numpy as np
 
 from app.diagnosis.model import ModelEffect
 from app.diagnosis.motion.baseline import Baseline, known_terms, without_baseline
+from app.diagnosis.motion.corrections import Corrections, corrected_by, further
 from app.diagnosis.motion.errors import ErrorTable
 from app.diagnosis.motion.exact import ExactFit, exact_fit
 from app.diagnosis.motion.library import curve_groups, law_groups, laws
@@ -16,6 +17,7 @@ from app.diagnosis.motion.log import Log
 from app.diagnosis.motion.names import Judgement, judge
 from app.diagnosis.motion.noise import whiteners_of
 from app.diagnosis.motion.prior import choose_scale, prior_factor
+from app.diagnosis.motion.refining import refine
 from app.diagnosis.motion.sampling import Motion, Samples, take_samples
 from app.diagnosis.motion.search import Search, Term
 from app.diagnosis.motion.system import Group, System
@@ -25,15 +27,6 @@ from app.kinematics.robot import GRAVITY
 
 MOST_ROUNDS = 3
 LEAST_BEFORE = 0.06  # share of the log's usable rows on either side of a change
-
-
-@dataclass(frozen=True, eq=False)
-class Corrections:
-    """What is undone before anything else is compared: late torques, wrong factors."""
-
-    delay: float
-    scale: np.ndarray  # (n,) recorded = (1 + scale) * true
-    gravity: np.ndarray  # (3,) m/s^2
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,14 +96,13 @@ def examine(
         start, stay = carried(system, groups, terms)
         events = {_event(t) for t in start}
         stay += len(known)
-        terms = search.exchange(search.forward(tell, [*known, *start], stay), stay)
-        terms = search.forward(tell, terms, stay)
+        terms = _selected(search, tell, [*known, *start], stay)
         fit = exact_fit(system, prior, terms)
         kept = search.backward(fit.terms, stay)
         if len(kept) < len(fit.terms):
             fit = exact_fit(system, prior, kept)
         terms = fit.terms[len(known) :]
-        new = _corrections(corrections, fit)
+        new = further(corrections, system, fit)
         if rounds == MOST_ROUNDS or (
             new is None and {_event(t) for t in terms if _law(t).windowed} <= events
         ):
@@ -143,6 +135,17 @@ def examine(
     )
 
 
+def _selected(search: Search, tell: Progress, start: list[Term], stay: int) -> list[Term]:
+    """Forward, then refined, until the refined terms leave nothing more to take."""
+    terms = search.forward(tell, start, stay)
+    for _ in range(MOST_ROUNDS):
+        refined = search.backward(refine(search, terms, stay), stay)
+        if [t.group for t in refined] == [t.group for t in terms]:
+            return terms
+        terms = search.forward(tell, refined, stay)
+    return refine(search, terms, stay)
+
+
 def _law(term: Term):
     assert term.group.law is not None
     return term.group.law
@@ -161,6 +164,8 @@ def _samples(
         shift=corrections.delay,
         gravity=corrections.gravity,
     )
+    if corrections.beyond is not None:
+        samples = samples.with_torque(corrections.beyond)
     y = samples.y.copy()
     for effect in given.effects:
         law = laws().get(effect.effect)
@@ -192,21 +197,6 @@ def carried(system: System, groups: list[Group], terms: list[Term]) -> tuple[lis
         group = replace(term.group, size=columns.shape[-1], bent=False)
         rest.append(replace(term, group=system.append(group, columns)))
     return stay + rest, len(stay)
-
-
-def corrected_by(corrections: Corrections, first: Corrections, fit: ExactFit) -> dict[int, np.ndarray]:
-    """Term -> what the samples were corrected by, in the term's columns."""
-    out: dict[int, np.ndarray] = {}
-    for i, term in enumerate(fit.terms):
-        if term.group.label == "delay":
-            out[i] = np.array([corrections.delay - first.delay])
-        elif term.group.label == "torque_constant" and term.group.joint is not None:
-            j = term.group.joint
-            scale = (1 + corrections.scale[j]) / (1 + first.scale[j]) - 1
-            out[i] = np.array([scale / (1 + scale)])
-        elif term.group.label == "gravity_direction":
-            out[i] = corrections.gravity - first.gravity
-    return out
 
 
 def _event(term: Term) -> tuple:
@@ -268,24 +258,3 @@ def _prior_scale(system: System, factor: np.ndarray) -> float:
         gram[np.ix_(at, at)] += G[np.ix_(inertial, inertial)] - cross @ weight[:, :-1]
         rhs[at] += G[inertial, 0] - cross @ weight[:, -1]
     return choose_scale(0.5 * (gram + gram.T), rhs, factor)
-
-
-def _corrections(old: Corrections, fit: ExactFit) -> Corrections | None:
-    """The next correction, or None where nothing moves any more."""
-    delay, scale, gravity, moved = old.delay, old.scale.copy(), old.gravity.copy(), False
-    for term, values, covariance in zip(fit.terms, fit.values, fit.covariances, strict=True):
-        key = term.group.label
-        std = np.sqrt(np.maximum(np.diag(covariance), 0.0))
-        if key == "delay":
-            delay += values["delay"]
-            moved |= abs(values["delay"]) > 0.1 * std[0]
-        elif key == "torque_constant" and term.group.joint is not None:
-            j = term.group.joint
-            step = float(np.clip(values["scale"], -0.5, 2.0))
-            scale[j] = (1 + scale[j]) * (1 + step) - 1
-            moved |= abs(step) > 0.1 * std[0]
-        elif key == "gravity_direction":
-            step = np.array([values[k] for k in ("gx", "gy", "gz")]) - GRAVITY
-            gravity = gravity + step
-            moved |= bool(np.any(np.abs(step) > 0.1 * std))
-    return Corrections(delay, scale, gravity) if moved else None

@@ -43,6 +43,7 @@ class Law(ABC):
         shared: True where it reaches every joint.
         follows_model: True where the columns are made of the predicted torque itself.
         corrected: True where the samples are corrected for it and looked at again.
+        common: True where nearly every joint has it.
     """
 
     key = ""
@@ -57,6 +58,7 @@ class Law(ABC):
     shared = False
     follows_model = False
     corrected = False
+    common = False
 
     @abstractmethod
     def places(self, state: State) -> list[Place]:

@@ -18,6 +18,7 @@ class CoulombFriction(JointLaw):
     units: ClassVar = {"coulomb": "Nm"}
     linear = ("coulomb",)
     positive = ("coulomb",)
+    common = True
 
     def columns(self, state: State, where: Where, shape: Values) -> np.ndarray:
         return np.sign(state.qd[:, joint_of(where), None])
