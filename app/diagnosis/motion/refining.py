@@ -59,6 +59,7 @@ def exchange(search: Search, terms: list[Term], stay: int = 0) -> list[Term]:
                 continue
             group = bent(system, search.prior, others, group)
             if not search.possible(group, others):
+                _forget(system, group, board[index].group)
                 continue
             worth = search.losses_without([*others[:i], group, *others[i:]])[i] - penalty * _freedom(group)
             least = BETTER + SHAPELY * gain * (bool(group.shape) - bool(term.group.shape))
@@ -66,6 +67,8 @@ def exchange(search: Search, terms: list[Term], stay: int = 0) -> list[Term]:
                 term = Term(group, term.p_value, board[index].visible)
                 terms = [*terms[:i], term, *terms[i + 1 :]]
                 own = worth
+            else:
+                _forget(system, group, board[index].group)
     return terms
 
 
@@ -81,12 +84,18 @@ def relocate(search: Search, terms: list[Term], stay: int = 0) -> list[Term]:
         others = [t.group for k, t in enumerate(terms) if k != i]
         near = Candidate(base, base.size, terms[i].visible, _blocks_of(search.system, group))
         moved = located(search.system, search.prior, others, near, group.law.key == "contact")
-        if moved.where == group.where:
-            continue
         gains = [search.losses_without([*others, g])[-1] for g in (group, moved)]
-        if gains[1] > gains[0] + BETTER:
+        if moved.where == group.where or gains[1] < gains[0] + BETTER:
+            search.system.remove(moved)
+        else:
             terms = [*terms[:i], replace(terms[i], group=moved), *terms[i + 1 :]]
     return terms
+
+
+def _forget(system: System, tried: Group, grid: Group) -> None:
+    """A law bent from the grid that earned no place."""
+    if tried is not grid:
+        system.remove(tried)
 
 
 def _blocks_of(system: System, group: Group) -> tuple[int, int]:

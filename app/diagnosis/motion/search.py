@@ -133,7 +133,7 @@ class Search:
             group = self._settle(candidate, selected)
             if not self.possible(group, selected) or (windowed and not self._stands_out(group, selected)):
                 events += windowed
-                refused.add((key_of(candidate.group), candidate.window))
+                self._refuse(group, candidate, refused)
                 continue
             if loss is None:
                 loss = heldout_losses(self.system, selected, self.prior)
@@ -142,8 +142,8 @@ class Search:
             if not good.all() and score > bar.value:
                 good = falls < loss
             if not (good.all() or (windowed and good[0])):
-                if not more:  # beside others that came in just now it may only have been too late
-                    refused.add((key_of(candidate.group), candidate.window))
+                # Beside others that came in just now it may only have been too late.
+                self._refuse(group, candidate, set() if more else refused)
                 continue
             more.append(Term(group, 1.0 / (1 + FLIPS), candidate.visible))
             if group.joint is None:
@@ -151,6 +151,11 @@ class Search:
             touched.add(group.joint)
             selected, loss = [*selected, group], falls
         return more
+
+    def _refuse(self, group: Group, candidate: Candidate, refused: set) -> None:
+        refused.add((key_of(candidate.group), candidate.window))
+        if group is not candidate.group:
+            self.system.remove(group)
 
     def possible(self, group: Group, selected: list[Group]) -> bool:
         """True where the values it would take are some that an arm can have."""

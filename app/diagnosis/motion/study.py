@@ -96,7 +96,7 @@ def examine(
         start, stay = carried(system, groups, terms)
         events = {_event(t) for t in start}
         stay += len(known)
-        terms = _selected(search, tell, [*known, *start], stay)
+        terms = [*known, *start] if log.foreign else _selected(search, tell, [*known, *start], stay)
         fit = exact_fit(system, prior, terms)
         kept = search.backward(fit.terms, stay)
         if len(kept) < len(fit.terms):

@@ -125,6 +125,18 @@ class JointSystem:
         self._total[old:new, :new], self._total[:new, old:new] = cross, cross.T
         self.places[group] = slice(old, new)
 
+    def remove_last(self, group: Group) -> None:
+        """Forgets the group that came in last."""
+        place = self.places.pop(group)
+        self.size = place.start
+        kept = self._active < place.start
+        if not kept.all():
+            self._active = self._active[kept]
+            self.blocks = self.blocks[:, kept][:, :, kept]
+            self._folds.clear()
+        self._slot[:] = -1
+        self._slot[self._active] = np.arange(len(self._active))
+
     def replace_response(self, values: np.ndarray) -> None:
         """Puts another whitened y (M,) in."""
         self._columns[:, 0] = values
@@ -192,6 +204,15 @@ class System:
         self.groups.append(group)
         self.raw[group] = values
         return group
+
+    def remove(self, group: Group) -> None:
+        """Forgets a group that was only tried, where nothing came in after it."""
+        here = [p for p in self.parts if group in p.places]
+        if group in self.raw and all(p.places[group].stop == p.size for p in here):
+            for part in here:
+                part.remove_last(group)
+            self.groups.remove(group)
+            del self.raw[group]
 
     def replace_response(self, values: np.ndarray) -> None:
         """Puts another y in: (M, n), torque beyond the description and beyond what was linearised away."""
