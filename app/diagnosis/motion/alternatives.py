@@ -27,13 +27,15 @@ def alternatives_of(study: Study, index: int) -> tuple[Alternative, ...]:
     own_gain, own_size = float(study.judgement.gains[index]), term.group.size
     penalty = np.log(max(study.system.rows, 3))
     out: dict[tuple, Alternative] = {}
-    deltas = own_gain - board.gain + penalty * (board.sizes - own_size)
+    level = _level(study, term.group.joint)
+    deltas = (own_gain - board.gain) / level + penalty * (board.sizes - own_size)
     for at in np.flatnonzero(deltas < CLOSE).tolist():
         candidate, delta = board[at], float(deltas[at])
         law, where = candidate.group.law, dict(candidate.group.where)
         assert law is not None
-        same = law.key == term.group.law.key and where.get("joint") == term.group.where.get("joint")  # type: ignore[union-attr]
-        if same and law.key != "joint_coupling":
+        keys = ("joint", "source_joint") if law.within else ("joint", "driver", "source_joint")
+        same = all(where.get(k) == term.group.where.get(k) for k in keys)
+        if same and (law.key == term.group.label or law.within == term.group.label):
             continue
         if candidate.window is not None:
             edges, t = study.system.edges, study.samples.t
@@ -45,6 +47,16 @@ def alternatives_of(study: Study, index: int) -> tuple[Alternative, ...]:
             out[key] = Alternative(law.key, where, delta)
     found = sorted(out.values(), key=lambda a: a.delta_bic)[:MOST]
     return (*_aliases(study, index), *found)
+
+
+def _level(study: Study, joint: int | None) -> float:
+    """What is left over, as a multiple of the noise's variance: a difference counts by so much less."""
+    parts = zip(study.system.parts, study.fit.solution.columns, study.fit.solution.positions, strict=True)
+    levels = []
+    for (part, col, pos), whitener in zip(parts, study.system.whiteners, strict=True):
+        white = part.columns[:, 0] - part.columns[:, col] @ study.fit.solution.theta[pos]
+        levels.append(float(white @ white) / max(np.count_nonzero(whitener.weight), 1))
+    return max(1.0, max(levels) if joint is None else levels[joint])
 
 
 def _aliases(study: Study, index: int) -> tuple[Alternative, ...]:

@@ -16,9 +16,10 @@ WIDTH = 0.8  # of the logarithm, either way
 def bent(system: System, prior: np.ndarray, others: list[Group], group: Group) -> Group:
     """The group with its shape bent, the others refitted throughout; registered with the system."""
     law = group.law
-    if law is None or not group.shape or group.joint is None:
+    names = () if law is None else tuple(n for n in law.shape_bounds if n in group.shape)
+    if law is None or not names or group.joint is None:
         return group
-    name = next(n for n in law.shape_bounds if n in group.shape)
+    name = names[0]
     low, high = law.shape_bounds[name]
     start = group.shape[name]
     width = 1.0 / max(start, 1.5) if law.key == "torque_ripple" else WIDTH

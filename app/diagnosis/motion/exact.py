@@ -47,7 +47,7 @@ class ExactFit:
 
 def is_linear(group: Group) -> bool:
     """True where the law is linear in all its parameters."""
-    return group.law is not None and not group.law.shape_bounds
+    return group.law is not None and not any(name in group.shape for name in group.law.shape_bounds)
 
 
 def exact_fit(system: System, prior: np.ndarray, terms: list[Term]) -> ExactFit:
@@ -78,7 +78,8 @@ def exact_fit(system: System, prior: np.ndarray, terms: list[Term]) -> ExactFit:
         for i in bent:
             law = terms[i].group.law
             assert law is not None
-            for name, step in zip(law.shape_bounds, parts[i][len(law.linear) :], strict=False):
+            bounded = [n for n in law.shape_bounds if n in shapes[i]]
+            for name, step in zip(bounded, parts[i][len(law.linear) :], strict=False):
                 old = shapes[i][name]
                 shapes[i][name] = _held(law.key, name, old, float(step), law.shape_bounds[name])
                 change = max(change, abs(shapes[i][name] - old) / max(abs(old), 1e-9))

@@ -8,6 +8,7 @@ import numpy as np
 
 from app.diagnosis.model import ModelEffect, SavedModel
 from app.diagnosis.motion.alternatives import alternatives_of
+from app.diagnosis.motion.commands import lag_findings
 from app.diagnosis.motion.errors import ErrorTable
 from app.diagnosis.motion.uncertainty import widening
 from app.diagnosis.result import Diagnosis, Evidence, Finding, Leftover, Noise, Parameter, Quality
@@ -29,7 +30,7 @@ def build(study: Study, robot: RobotModel, file: str) -> Diagnosis:
     widened = widening(study.system, fit.solution, study.prior)
     findings = [_finding(study, table, i, base + named, widened) for i in named]
     order = np.argsort([-judgement.gains[i] for i in named])
-    findings = [findings[k] for k in order]
+    findings = [*(findings[k] for k in order), *lag_findings(study.log)]
     after_residual = table.residual(base + named)
     usable = samples.usable
     after = Quality(_rms(after_residual, usable), table.heldout(base + named), "Nm")

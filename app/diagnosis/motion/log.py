@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from itertools import pairwise
 
 import numpy as np
+from scipy.ndimage import uniform_filter1d
 
 from app.diagnosis.motion.checks import backwards_rows, check_moves, check_units, spikes
 from app.errors import CellValueError, InputError, MissingColumnError
@@ -15,6 +16,7 @@ from app.recordings import Table
 MOST_BROKEN = 0.6  # share of unusable rows above which a log is refused
 FEWEST = 60  # usable samples
 GAP = 6.0  # in sampling steps
+WARMING = 5.0  # s over which temperatures are averaged
 
 
 @dataclass(frozen=True, eq=False)
@@ -125,7 +127,7 @@ def read_log(table: Table, robot: RobotModel) -> Log:
     kept = np.zeros(len(t), bool)
     for part in segments:
         kept[part] = True
-    temperature = _filled(temperature, good)
+    temperature = _slow(_filled(temperature, good), step)
     commanded = _filled(commanded, good)
     if not kept.all():
         index = np.flatnonzero(kept)
@@ -228,6 +230,14 @@ def _refuse_if_few(good, rows, table, what, t, q, y) -> None:
         row=first,
         expected=f"at least {FEWEST} usable rows, and most of the file",
     )
+
+
+def _slow(temperature: np.ndarray | None, step: float) -> np.ndarray | None:
+    """Averaged over some seconds: a gear's temperature moves slower than its sensor's noise and digits."""
+    if temperature is None:
+        return None
+    width = int(np.clip(WARMING / step, 1, len(temperature) // 10 + 1))
+    return uniform_filter1d(temperature, width, axis=0, mode="nearest")
 
 
 def _filled(values: np.ndarray | None, good: np.ndarray) -> np.ndarray | None:

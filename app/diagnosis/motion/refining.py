@@ -10,7 +10,7 @@ import numpy as np
 from app.diagnosis.motion.bending import bent
 from app.diagnosis.motion.locate import located
 from app.diagnosis.motion.scoring import Candidate, score_all, solve
-from app.diagnosis.motion.search import Term, key_of
+from app.diagnosis.motion.search import LEVEL, Term, key_of
 from app.diagnosis.motion.system import Group, System
 
 if TYPE_CHECKING:
@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 PASSES = 3
 TRIED = 4  # laws bent in one place
 NEAR = 0.8  # of what is there must a law explain before its shape is bent: shapes lie close on the grid
+SHADOW = 0.05  # of what a law adds to a simpler one within it, beyond which a free curve shows it is another
 SHAPELY = 0.03  # share of its gain by which a law with a shape must beat one without
 BETTER = 2.0  # an exchange must be worth this much
 #: Dry and viscous friction are in every joint: another law in their place must be a hundred times likelier.
@@ -29,7 +30,7 @@ def refine(search: Search, terms: list[Term], stay: int = 0) -> list[Term]:
     """Exchanges laws and moves events until nothing changes; the first `stay` terms stay as they are."""
     for _ in range(PASSES):
         before = [t.group for t in terms]
-        terms = exchange(search, relocate(search, terms, stay), stay)
+        terms = simplify(search, exchange(search, relocate(search, terms, stay), stay), stay)
         if [t.group for t in terms] == before:
             break
     return terms
@@ -62,7 +63,7 @@ def exchange(search: Search, terms: list[Term], stay: int = 0) -> list[Term]:
                 _forget(system, group, board[index].group)
                 continue
             worth = search.losses_without([*others[:i], group, *others[i:]])[i] - penalty * _freedom(group)
-            least = BETTER + SHAPELY * gain * (bool(group.shape) - bool(term.group.shape))
+            least = BETTER + SHAPELY * gain * (_shaped(group) - _shaped(term.group))
             if worth > own + least + RARE * (_common(term.group) - _common(group)):
                 term = Term(group, term.p_value, board[index].visible)
                 terms = [*terms[:i], term, *terms[i + 1 :]]
@@ -70,6 +71,35 @@ def exchange(search: Search, terms: list[Term], stay: int = 0) -> list[Term]:
             else:
                 _forget(system, group, board[index].group)
     return terms
+
+
+def simplify(search: Search, terms: list[Term], stay: int = 0) -> list[Term]:
+    """Takes the simpler law where what the larger adds to it is not drawn as the larger has it.
+
+    A joint whose torque is off by a constant, with some curve of its angle beside, is no spring.
+    """
+    system = search.system
+    for i in range(stay, len(terms)):
+        group = terms[i].group
+        smaller = next((g for g in search.groups if _contains(group, g)), None)
+        if smaller is None:
+            continue
+        selected = [t.group for t in terms]
+        others = [*selected[:i], *selected[i + 1 :]]
+        if any(key_of(g) == key_of(smaller) for g in others):
+            continue
+        added = search.losses_without(selected)[i] - search.losses_without([*others, smaller])[-1]
+        curves = [g for g in system.groups if g.law is None and g.joint == group.joint]
+        beyond = score_all(system, solve(system, selected, search.prior), curves, {}, [], null=False)
+        sure = beyond.score > np.log10(len(curves) / LEVEL)
+        if sure.any() and np.max((beyond.gain - beyond.sizes)[sure]) > SHADOW * added:
+            terms = [*terms[:i], replace(terms[i], group=smaller), *terms[i + 1 :]]
+    return terms
+
+
+def _contains(larger: Group, smaller: Group) -> bool:
+    law = larger.law
+    return bool(law and law.within and smaller.label == law.within and smaller.joint == larger.joint)
 
 
 def relocate(search: Search, terms: list[Term], stay: int = 0) -> list[Term]:
@@ -110,7 +140,11 @@ def _blocks_of(system: System, group: Group) -> tuple[int, int]:
 def _freedom(group: Group) -> int:
     """Parameters of a law, its shape counted."""
     assert group.law is not None
-    return len(group.law.linear) + len(group.shape)
+    return len(group.law.linear) + sum(name in group.law.shape_bounds for name in group.shape)
+
+
+def _shaped(group: Group) -> bool:
+    return group.law is not None and any(name in group.law.shape_bounds for name in group.shape)
 
 
 def _common(group: Group) -> bool:

@@ -238,12 +238,6 @@ class _Bar:
         return max(float(null_scores(self._board, self._signs).max()), self._sure)
 
 
-def _freedom(group: Group) -> int:
-    """Parameters of a law, its shape counted."""
-    assert group.law is not None
-    return len(group.law.linear) + len(group.shape)
-
-
 def key_of(group: Group) -> tuple:
     """A law at a place counts once, whatever its shape."""
     ripple = group.law is not None and group.law.key == "torque_ripple"

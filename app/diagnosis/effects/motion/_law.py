@@ -44,6 +44,7 @@ class Law(ABC):
         follows_model: True where the columns are made of the predicted torque itself.
         corrected: True where the samples are corrected for it and looked at again.
         common: True where nearly every joint has it.
+        within: key of a simpler law on the same joint that this one contains.
     """
 
     key = ""
@@ -59,6 +60,7 @@ class Law(ABC):
     follows_model = False
     corrected = False
     common = False
+    within = ""
 
     @abstractmethod
     def places(self, state: State) -> list[Place]:

@@ -31,6 +31,8 @@ class Delay(Law):
         self, state: State, where: Where, values: Values, torque: np.ndarray | None = None
     ) -> np.ndarray:
         base = state.torque if torque is None else torque
+        if "joint" in where:  # late against its command: the torques belong to the measured motion
+            return np.zeros_like(base)
         late = state.t - values["delay"]
         return np.stack([np.interp(late, state.t, column) for column in base.T], axis=1) - base
 

@@ -17,6 +17,7 @@ class JointSpring(JointLaw):
     equation = "tau = stiffness * q + offset"
     units: ClassVar = {"stiffness": "Nm/rad", "offset": "Nm"}
     linear = ("stiffness", "offset")
+    within = "friction_asymmetry"
 
     def columns(self, state: State, where: Where, shape: Values) -> np.ndarray:
         q = state.q[:, joint_of(where)]

@@ -17,6 +17,7 @@ class QuadraticFriction(JointLaw):
     equation = "tau = quadratic * qd * |qd|"
     units: ClassVar = {"quadratic": "Nm s^2/rad^2"}
     linear = ("quadratic",)
+    positive = ("quadratic",)
 
     def columns(self, state: State, where: Where, shape: Values) -> np.ndarray:
         qd = state.qd[:, joint_of(where), None]
