@@ -1,8 +1,8 @@
-"""Torque of a real arm predicted on runs the model has not seen, joint by joint and step by step.
+"""Torque of a real arm predicted on runs the model has not seen, and what changed between two of them.
 
     python -m benchmarks.motion_real [FOLDER]      the folder with run_a.csv (learnt), run_b.csv, run_c.csv (judged)
 
-Steps: the description alone; its masses fitted within their prior; dry and viscous friction; all that was found.
+Without FOLDER: ur10e_motion of TEACHFRAME_DATA.
 """
 
 from __future__ import annotations
@@ -13,77 +13,54 @@ from pathlib import Path
 
 import numpy as np
 
-from app.diagnosis.motion.engine import ready
-from app.diagnosis.motion.errors import ErrorTable
-from app.diagnosis.motion.sampling import take_samples
-from app.diagnosis.motion.study import examine
+from app.diagnosis.motion import STEPS, diagnose, judged_on
+from app.diagnosis.result import Diagnosis
 from app.kinematics import load_robot
 from app.recordings import read_table
 
-STEPS = ("description", "+ masses", "+ dry, viscous friction", "+ all found")
 
-
-def run(folder: Path) -> dict[str, np.ndarray]:
-    """File -> (steps, n) root mean square error [Nm] of a model learnt on run_a alone."""
+def table(folder: Path) -> None:
+    """Held-out error of a model learnt on run_a, and of one learnt on itself for runs without a second."""
     learnt = read_table(folder / "run_a.csv")
     robot = load_robot(learnt.keys["robot"], relative_to=folder)
-    log, motion, _ = ready(learnt, robot)
-    study = examine(log, robot, motion, lambda share, what: None, 0)
-    table = ErrorTable(
-        study.system,
-        study.prior,
-        [t.group for t in study.fit.terms],
-        study.samples.y - study.fit.offset,
-        study.done,
+    for judged in judged_on(learnt, [read_table(p) for p in sorted(folder.glob("run_[b-z].csv"))], robot):
+        joints = "".join(f"{'joint ' + str(j + 1):>9}" for j in range(judged.errors.shape[1]))
+        print(f"{judged.file}: torque error on it of a model learnt on run_a.csv [Nm]")
+        print(f"{'':<34}{joints}{'all':>9}")
+        for step, row in zip(STEPS, judged.errors, strict=True):
+            print(f"{step:<34}" + "".join(f"{v:>9.3f}" for v in row) + f"{np.sqrt(np.mean(row**2)):>9.3f}")
+
+
+def changed(folder: Path) -> None:
+    """What run_c has that run_b has not, and what the description alone would have claimed of run_c."""
+    new, old = read_table(folder / "run_c.csv"), read_table(folder / "run_b.csv")
+    robot = load_robot(new.keys["robot"], relative_to=folder)
+    tell("run_c.csv against run_b.csv (--reference)", diagnose(new, robot, reference=old))
+    tell("run_b.csv against run_c.csv, the other way round", diagnose(old, robot, reference=new))
+    tell("run_c.csv against the description alone", diagnose(new, robot))
+
+
+def tell(title: str, found: Diagnosis) -> None:
+    print(
+        f"\n{title}: {found.verdict}, held-out {found.before.heldout_rms:.3f} -> {found.after.heldout_rms:.3f} Nm"
     )
-    friction = [
-        i for i, t in enumerate(study.fit.terms) if t.group.label in ("coulomb_friction", "viscous_friction")
-    ]
-    lasting = [
-        i for i, t in enumerate(study.fit.terms) if t.group.law is not None and not t.group.law.windowed
-    ]
-    out = {}
-    for name in ("run_b.csv", "run_c.csv"):
-        new, moved, _ = ready(read_table(folder / name), robot)
-        raw = take_samples(new, robot, moved, new.y, lambda share, what: None)
-        rows = [_rms(raw.y, raw.usable)]
-        for terms in ([], friction, lasting):
-            theta = table._theta(*table.all, table._keep(terms))
-            residual = raw.y.copy()
-            at = study.system.inertial_size
-            for j in range(residual.shape[1]):
-                residual[:, j] -= raw.regressor[:, :, j] @ theta[:at]
-            for i, term in enumerate(study.fit.terms):
-                group, law = term.group, term.group.law
-                assert law is not None
-                part = theta[at : at + len(law.linear)]
-                at += group.size
-                if i not in terms:
-                    continue
-                columns = raw.pool(law.columns(raw.state, group.where, group.shape))
-                if group.joint is None:
-                    residual -= columns @ part
-                else:
-                    residual[:, group.joint] -= columns @ part
-            rows.append(_rms(residual, raw.usable))
-        out[name] = np.array(rows)
-    return out
-
-
-def _rms(residual: np.ndarray, usable: np.ndarray) -> np.ndarray:
-    return np.array([np.sqrt(np.mean(r[u] ** 2)) for r, u in zip(residual.T, usable.T, strict=True)])
-
-
-def main(folder: Path) -> None:
-    for name, table in run(folder).items():
-        joints = "".join(f"{'joint ' + str(j + 1):>9}" for j in range(table.shape[1]))
-        print(
-            f"{folder.name}/{name}: error on it of a model learnt on run_a [Nm]\n{'':<26}{joints}{'all':>9}"
+    for finding in found.findings:
+        values = ", ".join(
+            f"{p.name} {p.value:.4g} ± {p.std:.2g} {p.unit}".rstrip() for p in finding.parameters
         )
-        for step, row in zip(STEPS, table, strict=True):
-            print(f"{step:<26}" + "".join(f"{v:>9.3f}" for v in row) + f"{np.sqrt(np.mean(row**2)):>9.3f}")
+        where = " ".join(f"{k}={v}" for k, v in finding.where.items())
+        others = ", ".join(
+            f"{a.effect} {a.where.get('joint', a.where.get('link', ''))}".rstrip()
+            for a in finding.alternatives
+        )
+        print(f"  {finding.effect} {where}: {values}" + (f"; or {others}" if others else ""))
+    for note in found.notes:
+        print(f"  - {note}")
 
 
 if __name__ == "__main__":
     data = Path(os.environ.get("TEACHFRAME_DATA", Path(__file__).parents[2] / "shared" / "data"))
-    main(Path(sys.argv[1]) if len(sys.argv) > 1 else data / "ur10e_motion")
+    chosen = Path(sys.argv[1]) if len(sys.argv) > 1 else data / "ur10e_motion"
+    table(chosen)
+    if (chosen / "run_c.csv").exists():
+        changed(chosen)

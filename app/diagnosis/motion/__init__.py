@@ -8,7 +8,13 @@ library.py, curves.py laws and free curves as columns
 noise.py, whitening.py  size and memory of the noise
 system.py             Gram matrices block by block
 scoring.py            scores and their null under sign flips
-search.py, locate.py, heldout.py  forward selection
+search.py, locate.py, bending.py, heldout.py  forward selection
+refining.py           laws and times looked at again together
+repeats.py            a trajectory that runs again: noise without physics
+corrections.py        what is undone in the samples and looked at again
+uncertainty.py        spreads where structure is left
+commands.py           the lag between command and answer
+judged.py             learnt on one run, judged on others
 exact.py              refit with the exact laws
 names.py              what may be named, what is left over
 findings.py           the result
@@ -19,5 +25,6 @@ engine.py             the order of all this
 """
 
 from app.diagnosis.motion.engine import diagnose
+from app.diagnosis.motion.judged import STEPS, Judged, judged_on
 
-__all__ = ["diagnose"]
+__all__ = ["STEPS", "Judged", "diagnose", "judged_on"]

@@ -70,9 +70,13 @@ class ErrorTable:
         out[keep] = solved(A[keep[:, None], keep], g[keep], self.prior)
         return out
 
+    def theta_with(self, terms: list[int]) -> np.ndarray:
+        """(p,) all unknowns, those of terms that are left out being zero."""
+        return self._theta(*self.all, self._keep(terms))
+
     def residual(self, terms: list[int]) -> np.ndarray:
         """(M, n) [Nm] with only these terms in the model."""
-        theta = self._theta(*self.all, self._keep(terms))
+        theta = self.theta_with(terms)
         out = self.response.copy()
         for j, (columns, pos) in enumerate(zip(self.raw, self.positions, strict=True)):
             out[:, j] -= columns @ theta[pos]

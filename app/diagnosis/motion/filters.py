@@ -23,12 +23,20 @@ _PROBE = 20_000  # samples the choice of the window looks at
 
 @dataclass(frozen=True)
 class Smoothing:
-    """What was used: half width of the window in samples (one a joint), noise of the signal, step in seconds."""
+    """What was used.
+
+    Args:
+        half_widths: of the window in samples, one a joint.
+        noise: of the signal.
+        step: [s].
+        acceleration: one-sigma noise left on the acceleration [rad/s^2], one a joint.
+    """
 
     half_widths: tuple[int, ...]
     noise: tuple[float, ...]
     step: float
     source: str
+    acceleration: tuple[float, ...] = ()
 
     def sentence(self) -> str:
         low, high = min(self.half_widths), max(self.half_widths)
@@ -126,7 +134,12 @@ def differentiate(
             )
     if qd is not None:
         widths, noise = widths_qd, noise_qd
-    return out_q, out_qd, out_qdd, Smoothing(tuple(widths), tuple(noise), step, source)
+    order = 2 if qd is None else 1
+    left = [
+        s * float(np.linalg.norm(_coefficients(h, order))) / step**order
+        for h, s in zip(widths, noise, strict=True)
+    ]
+    return out_q, out_qd, out_qdd, Smoothing(tuple(widths), tuple(noise), step, source, tuple(left))
 
 
 def _is_even(t: np.ndarray, step: float) -> bool:

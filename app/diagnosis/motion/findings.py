@@ -45,7 +45,9 @@ def build(study: Study, robot: RobotModel, file: str) -> Diagnosis:
         leftover = Leftover(judgement.leftover_p, {})
     spread = float(np.sqrt(np.mean([w.spread**2 for w in study.system.whiteners if w.weight.any()])))
     log = study.log
-    if log.stated_noise is not None:
+    if samples.repeat:
+        noise = Noise(float(spread * np.sqrt(samples.window)), "Nm", "repeats")
+    elif log.stated_noise is not None:
         noise = Noise(float(np.sqrt(np.mean(log.stated_noise**2))), "Nm", "stated")
     else:
         noise = Noise(float(spread * np.sqrt(samples.window)), "Nm", "residual")
@@ -123,6 +125,11 @@ def _rms(residual: np.ndarray, usable: np.ndarray) -> float:
 def _notes(study: Study) -> tuple[str, ...]:
     samples, log = study.samples, study.log
     notes = [*log.notes, *study.notes, samples.smoothing.sentence()]
+    if samples.repeat:
+        again = samples.repeat * samples.step
+        notes.append(
+            f"the same trajectory runs again after {again:.2f} s: the noise is what differs between runs"
+        )
     if samples.thinned:
         notes.append(
             f"{len(samples.t) * samples.window} of {len(log.t)} samples were used, in windows of {samples.window} "

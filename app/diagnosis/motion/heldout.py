@@ -33,7 +33,7 @@ def solved(A: np.ndarray, g: np.ndarray, prior: np.ndarray) -> np.ndarray:
     i = len(prior)
     A = A.copy()
     A[:i, :i] += prior
-    scale = np.sqrt(np.diag(A))
+    scale = np.sqrt(np.maximum(np.diag(A), 0.0))  # sums that cancel leave rounding
     scale[scale <= 1e-9 * scale.max()] = np.inf  # what is not excited stays zero
     A = A / scale / scale[:, None]
     A[np.diag_indices_from(A)] += np.where(np.isinf(scale), 1.0, 1e-11)

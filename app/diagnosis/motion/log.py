@@ -16,7 +16,7 @@ from app.recordings import Table
 MOST_BROKEN = 0.6  # share of unusable rows above which a log is refused
 FEWEST = 60  # usable samples
 GAP = 6.0  # in sampling steps
-WARMING = 5.0  # s over which temperatures are averaged
+WARMING = 2.0  # s over which temperatures are averaged
 
 
 @dataclass(frozen=True, eq=False)

@@ -6,10 +6,14 @@ import numpy as np
 
 from app.diagnosis.motion.sampling import Samples
 from app.diagnosis.motion.system import Group
-from app.diagnosis.motion.whitening import Whitener, estimate
-from app.kinematics.dynamics import PER_LINK
+from app.diagnosis.motion.whitening import Whitener, estimate, weights
+from app.kinematics import RobotModel
+from app.kinematics.dynamics import PER_LINK, inertial_parameters
+from app.kinematics.regressor import torque_regressor
 
 _RIDGE = 1e-9
+POSES = 40  # at which the arm's inertia is looked at
+LEAST_PAIRS = 200  # rows seen twice, of which a noise can be learnt
 _LOUD = 3.0  # times the usual variance of a block: something happened there
 
 
@@ -26,6 +30,22 @@ def whiteners_of(
         extra: groups that were found and are in neither (windows).
     """
     return [_whitener(samples, shared, local[j], extra, j) for j in range(samples.y.shape[1])]
+
+
+def noise_of_motion(robot: RobotModel, samples: Samples) -> np.ndarray:
+    """(n,) [Nm] what the noise left on the accelerations does to the description's torques."""
+    state, n = samples.state, samples.state.joints
+    some = np.unique(np.linspace(0, len(state.t) - 1, POSES).astype(int))
+    q, still = state.q[some], np.zeros((len(some), n))
+    nominal = inertial_parameters(robot)
+    resting = torque_regressor(robot, q, still, still) @ nominal
+    variance = np.zeros(n)
+    for k, sigma in enumerate(samples.smoothing.acceleration):
+        pushed = still.copy()
+        pushed[:, k] = 1.0
+        inertia = torque_regressor(robot, q, still, pushed) @ nominal - resting
+        variance += sigma**2 * np.mean(inertia**2, axis=0)
+    return np.sqrt(variance)
 
 
 def _whitener(samples: Samples, shared, local, extra, j: int) -> Whitener:
@@ -45,12 +65,23 @@ def _whitener(samples: Samples, shared, local, extra, j: int) -> Whitener:
     if loud.any() and loud.mean() < 0.5:
         quiet &= ~loud[samples.blocks]
         residual, spent = _left(columns, y, quiet)
-    fitted = estimate(residual, quiet, samples.runs, spent)
+    fitted = _of_runs(samples, residual, quiet, spent) or estimate(residual, quiet, samples.runs, spent)
     # The loud blocks count again in the search: only the noise was not learnt from them.
     lags = len(fitted.lags)
-    from app.diagnosis.motion.whitening import weights
-
     return Whitener(fitted.lags, fitted.sigma, weights(usable, samples.runs, lags))
+
+
+def _of_runs(samples: Samples, residual: np.ndarray, quiet: np.ndarray, spent: float) -> Whitener | None:
+    """From what differs between two runs of one trajectory, where there are two and they agree the better."""
+    lag = samples.repeat
+    if not lag or np.count_nonzero(both := quiet[lag:] & quiet[:-lag]) < LEAST_PAIRS:
+        return None
+    differs = (residual[lag:] - residual[:-lag]) / np.sqrt(2.0)
+    # Where the second run is not as the first (a load was taken up between), nothing is learnt from the pair.
+    if np.mean(differs[both] ** 2) > np.mean(residual[quiet] ** 2):
+        return None
+    runs = [slice(0, len(differs))]
+    return estimate(differs, both, runs, spent * np.count_nonzero(both) / np.count_nonzero(quiet))
 
 
 def _rows(samples: Samples, usable: np.ndarray) -> list[np.ndarray]:

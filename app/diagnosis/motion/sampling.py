@@ -15,6 +15,7 @@ import numpy as np
 from app.diagnosis.effects.motion._state import State
 from app.diagnosis.motion.filters import Smoothing, differentiate
 from app.diagnosis.motion.log import Log
+from app.diagnosis.motion.repeats import repeat_of
 from app.diagnosis.result import Progress
 from app.kinematics import RobotModel
 from app.kinematics.dynamics import (
@@ -50,6 +51,7 @@ class Samples:
         runs: slices of windows without a gap.
         centre: (M,) the log's sample in the middle of each window.
         step: time between windows [s].
+        repeat: windows until the same trajectory runs again, 0 where it does not.
     """
 
     state: State
@@ -65,6 +67,7 @@ class Samples:
     step: float
     smoothing: Smoothing
     thinned: bool
+    repeat: int
 
     @property
     def block_count(self) -> int:
@@ -147,6 +150,7 @@ def take_samples(
         state, window, points, middle, measured - _pooled(rigid, points), regressor,
         _usable(state, smoothing, measured, np.abs(_pooled(qd, points)), turning, runs),
         _blocks(count), runs, first + window // 2, wide, smoothing, thinned,
+        repeat_of(_pooled(q, points), runs),
     )  # fmt: skip
 
 

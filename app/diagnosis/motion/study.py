@@ -15,7 +15,7 @@ from app.diagnosis.motion.exact import ExactFit, exact_fit
 from app.diagnosis.motion.library import curve_groups, law_groups, laws
 from app.diagnosis.motion.log import Log
 from app.diagnosis.motion.names import Judgement, judge
-from app.diagnosis.motion.noise import whiteners_of
+from app.diagnosis.motion.noise import noise_of_motion, whiteners_of
 from app.diagnosis.motion.prior import choose_scale, prior_factor
 from app.diagnosis.motion.refining import refine
 from app.diagnosis.motion.sampling import Motion, Samples, take_samples
@@ -76,7 +76,12 @@ def examine(
 ) -> Study:
     """Search, exact refit and judgement of one log."""
     base = given.base
-    first = base.corrections if base else Corrections(0.0, np.zeros(robot.joint_count), GRAVITY.copy())
+    # What the reference's laws add belongs to its own samples.
+    first = (
+        replace(base.corrections, beyond=None)
+        if base
+        else Corrections(0.0, np.zeros(robot.joint_count), GRAVITY.copy())
+    )
     corrections, factor = first, prior_factor(robot, given.mass_prior)
     terms: list[Term] = []
     before: tuple[np.ndarray, float] | None = None
@@ -109,7 +114,10 @@ def examine(
             break
         corrections = new or corrections
     tell(0.85, "names")
-    stated = None if log.stated_noise is None else log.stated_noise / np.sqrt(samples.window)
+    stated = None
+    if log.stated_noise is not None:
+        moved = noise_of_motion(robot, samples)
+        stated = np.sqrt(log.stated_noise**2 / samples.window + moved**2)
     if base and stated is not None:
         stated = None if note.startswith("the reference follows the same") else stated
     done = corrected_by(corrections, first, fit)
