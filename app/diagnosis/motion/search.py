@@ -227,17 +227,6 @@ class _Bar:
         return max(float(null_scores(self._board, self._signs).max()), self._sure)
 
 
-class _Bar:
-    """What a score must exceed; the null is drawn only where it is asked for."""
-
-    def __init__(self, board: Board, signs: np.ndarray, sure: float):
-        self._board, self._signs, self._sure = board, signs, sure
-
-    @cached_property
-    def value(self) -> float:
-        return max(float(null_scores(self._board, self._signs).max()), self._sure)
-
-
 def key_of(group: Group) -> tuple:
     """A law at a place counts once, whatever its shape."""
     ripple = group.law is not None and group.law.key == "torque_ripple"
