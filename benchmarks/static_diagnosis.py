@@ -16,10 +16,12 @@ from pathlib import Path
 
 import numpy as np
 from scipy.optimize import least_squares
+from scipy.spatial.transform import Rotation
 
 from app.diagnosis.static import diagnose
 from app.diagnosis.static.as_built import geometry_terms
 from app.diagnosis.static.fit import _stepped, fit
+from app.diagnosis.static.noise import component_rms
 from app.diagnosis.static.plain import plain_fit
 from app.diagnosis.static.reading import read_static
 from app.kinematics import load_robot
@@ -30,6 +32,8 @@ ROBOT = "ur10e"
 #: Poses -> aim [s], start-up not counted.
 AIMS = {60: 0.05, 200: 0.2, 1000: 0.5, 10_000: 4.0}
 FITTED = 200
+#: Share by which two residuals may differ and count as the same.
+SAME = 0.01
 
 
 def recording(folder: Path, robot, rows: int, terms=()):
@@ -62,12 +66,12 @@ def run() -> list[Row]:
                 len(table)  # the file is read before the clock starts
                 seconds = quickest(lambda t=table: diagnose(t, robot), 3 if count < 10_000 else 1)
                 rows.append(Row(f"diagnose {count} poses, 199 nulls, {what}", seconds, aim=aim))
-        rows.append(_geometric_fit(folder, robot))
+        rows += _geometric_fits(folder, robot)
     return rows
 
 
-def _geometric_fit(folder: Path, robot) -> Row:
-    """The same residual, start and parameters for both; each runs until it stops moving."""
+def _geometric_fits(folder: Path, robot) -> list[Row]:
+    """The same data, residual and start for all; each runs until it stops moving."""
     hidden = tuple(term("link_length", {"link": k, "axis": "a"}, 4e-4) for k in range(1, 6))
     start = plain_fit(read_static(recording(folder, robot, FITTED, hidden), robot), ())
     free = tuple(type(t)(t.effect, t.place, t.values, tacit=True) for t in geometry_terms(start))
@@ -87,12 +91,30 @@ def _geometric_fit(folder: Path, robot) -> Row:
     reached, theirs = ours(), peer()
     assert reached.rss <= 1.001 * 2.0 * theirs.cost, (reached.rss, 2.0 * theirs.cost)
     name = f"full geometric fit, {FITTED} poses, {len(scale)} parameters"
-    return Row(
-        name,
-        quickest(ours, 5),
-        quickest(peer, 1),
-        "scipy least_squares, finite differences of the same residual",
+    seconds = quickest(ours, 5)
+    rows = [
+        Row(name, seconds, quickest(peer, 1), "scipy least_squares, finite differences of the same residual")
+    ]
+    try:
+        figaroh = figaroh_fit(robot, start)
+    except ImportError:
+        return rows
+    theirs_rms, ours_rms = figaroh.solve(), component_rms(reached, ~start.recording.angular, corrected=False)
+    assert abs(theirs_rms / ours_rms - 1.0) < SAME, (theirs_rms, ours_rms)
+    rows.append(
+        Row(name, seconds, quickest(figaroh.solve, 1), f"FIGAROH, {figaroh.size} parameters, same residual")
     )
+    return rows
+
+
+def figaroh_fit(robot, start):
+    """FIGAROH's calibration of the same rows, from the same base and tool."""
+    from benchmarks._figaroh import FigarohFit
+
+    recording, setup = start.recording, start.setup
+    turn = Rotation.from_matrix(setup.rotations[0]).as_euler("xyz")
+    first = np.concatenate([setup.positions[0], turn, setup.tools[0, 0]])
+    return FigarohFit(robot.model.copy(), robot.flange, recording.q, recording.points[:, 0], first)
 
 
 if __name__ == "__main__":

@@ -19,7 +19,7 @@ from app.kinematics.regressor import torque_regressor
 from app.proof.generator.effects.term import Request
 from app.proof.generator.motion.cell import effect_on_torques
 from app.proof.generator.motion.making import MotionPlan, make_motion
-from app.proof.generator.static.cell import contact, seen, world_with
+from app.proof.generator.static.cell import contact, goals, seen, world_with
 from app.proof.generator.static.making import Plan, make
 from app.proof.generator.urdf import read_arm
 from tests.proof.arms import random_arm
@@ -158,3 +158,13 @@ def test_what_a_joint_carries_follows_from_where_it_stands_not_from_a_wrong_labe
     shown = made.terms[0].parameters["compliance"] * made.cell.holding[:, 2]
     assert np.abs(bend - shown).max() > 0.1 * np.abs(bend).max()  # else the test could not tell
     assert np.allclose(world_with(made.cell, made.terms).dq[:, 2], -bend)
+
+
+@pytest.mark.parametrize("where", [{"joint": 2}, {"joint": 4}, {"joint": 5, "source_joint": 6}])
+def test_a_tip_touches_its_target_however_the_joints_are_written_down(where, tmp_path):
+    _, path = random_arm("spherical_wrist", tmp_path, 2)
+    arm = read_arm(path)
+    plan = Plan(kind="touch", samples=24, noise=1e-9, targets=3)
+    made = make(plan, arm, arm, [Request("wrong_convention", where)], np.random.default_rng(8))
+    world = world_with(made.cell, made.terms)
+    assert np.abs(contact(made.cell, world)[0] - goals(made.cell, world)).max() < 1e-6

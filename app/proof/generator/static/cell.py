@@ -146,6 +146,14 @@ def standing(cell: Cell, terms: Sequence[Term]) -> Cell:
     return cell.at(world.flipped * cell.q + world.dq)
 
 
+def shown(cell: Cell, q: np.ndarray, terms: Sequence[Term]) -> Cell:
+    """The cell that shows joints as the wrong conventions among `terms` write them when they really stand at `q`."""
+    for term in reversed(terms):
+        if term.effect == WRITTEN:
+            q = law_of(term.effect).shown(term, q)
+    return cell.at(q)
+
+
 def _nothing(m: int, n: int) -> World:
     """A world without effects."""
     return World(
@@ -183,12 +191,12 @@ def tips(cell: Cell, world: World, where: Stance | None = None) -> np.ndarray:
 
 
 def contact(cell: Cell, world: World) -> tuple[np.ndarray, np.ndarray]:
-    """Where the tip first met the target (m, 3) [m], and how it moves with the joints (m, 3, n)."""
+    """Where the tip first met the target (m, 3) [m], and how it moves with the joints as they are (m, 3, n)."""
     where = true_stance(cell, world)
     tip = tips(cell, world, where)[:, 0]
     stands = turn_vector(world.base_turn)
     unturned = np.einsum("mji,mj->mi", stands, tip - world.base)
-    jacobian = stands @ point_jacobian(cell.arm, where, unturned) * world.flipped
+    jacobian = stands @ point_jacobian(cell.arm, where, unturned)
     return tip - world.depth * where.flange_rotations[:, :, 2], jacobian
 
 

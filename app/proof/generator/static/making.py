@@ -20,6 +20,7 @@ from app.proof.generator.static.cell import (
     law_of,
     scaled_to,
     seen,
+    shown,
     standing,
     true_stance,
     world_with,
@@ -30,6 +31,7 @@ ROW_SECONDS = 8.0
 TYPICAL_COMPLIANCE = 4.0e-3  # rad at the joint's rated torque, a common harmonic drive
 ORIENTATION_SIGMA = 2.0e-4  # rad
 TORQUE_SIGMA = 0.01  # of the rated torque
+TOUCHES = 1e-6  # m: a tip that is farther from its target does not touch it
 
 
 @dataclass(frozen=True)
@@ -230,10 +232,16 @@ def _placed(rng: np.random.Generator, place: np.ndarray) -> np.ndarray:
 
 def _touched(cell: Cell, terms: Sequence[Term], noise: np.ndarray) -> Cell:
     """Moves the arm until the tip touches, with everything that is wrong in place; angles as a file keeps them."""
+    cell = shown(cell, cell.q, terms)
+    gap = np.full((cell.m, 3), np.inf)
     for _ in range(8):
         world = world_with(cell, terms)
         tip, jacobian = contact(cell, world)
-        cell = cell.at(cell.q + newton_step(jacobian, goals(cell, world) + noise - tip, 1e-12))
+        gap = goals(cell, world) + noise - tip
+        there = standing(cell, terms).q + newton_step(jacobian, gap, 1e-12)
+        cell = shown(cell, there, terms)
+    if not np.abs(gap).max() < TOUCHES:
+        raise InputError("the tip cannot be brought to the target", expected="an arm that reaches it")
     return cell.at(np.round(cell.q, 8))
 
 

@@ -45,5 +45,17 @@ class WrongConvention:
         else:
             world.flipped[j] *= -1.0
 
+    def shown(self, term, q):
+        """(m, n) what is shown where the joints really stand at `q`."""
+        q, j = q.copy(), term.where["joint"] - 1
+        if "source_joint" in term.where:
+            k = term.where["source_joint"] - 1
+            q[:, [j, k]] = q[:, [k, j]]
+        elif "turn" in term.parameters:
+            q[:, j] -= term.parameters["turn"]
+        else:
+            q[:, j] *= -1.0
+        return q
+
 
 EFFECT = WrongConvention()
