@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from app.errors import InputError
 from app.proof.generator.arm import Arm
 from app.proof.generator.effects.term import Request, Term, draw_term
 from app.proof.generator.noise import draw_noise, draw_outliers
