@@ -115,7 +115,7 @@ class Stage:
         if len(self._drawn) == len(wanted) and all(a is b for a, b in zip(self._drawn, wanted, strict=True)):
             return
         self._drawn = wanted
-        self.marks.show(state.ordered if self.show_marks else ())
+        self.marks.show(state.ordered if self.show_marks and not self._tracing else ())
         # A result that waits for its decision is looked at, not moved: the handle would hide the arrows.
         free = not self._away and not self._tracing
         self.handle.visible = free and self.show_handle and (result is None or accepted(state))

@@ -72,8 +72,10 @@ def safe_name(name: str) -> str:
 
     KUKA's TOOL_NAME holds 24 characters, ABB's identifiers 32.
     """
-    clean = re.sub(r"[^A-Za-z0-9_]", "_", name)[:LONGEST_NAME]
-    return clean if clean and clean[0].isalpha() else "t" + clean[: LONGEST_NAME - 1]
+    clean = re.sub(r"[^A-Za-z0-9_]", "_", name).strip("_")
+    if not clean or not clean[0].isalpha():
+        clean = f"tool_{clean}".strip("_")
+    return clean[:LONGEST_NAME]
 
 
 def number(text: str, row: int | None = None, column: str | None = None) -> float:

@@ -11,6 +11,7 @@ from app.simulation.world import World
 
 View = tuple[np.ndarray, np.ndarray]  # where the eye is, what it looks at [m]
 
+_NARROW = 0.8  # width over height from which on everything of interest is seen
 _FIELD = 0.75  # vertical field of view [rad]: narrow, so that straight things look straight
 
 
@@ -63,8 +64,10 @@ MORE_VIEWS = {"result": result}
 
 
 def look(camera: viser.CameraHandle, view: View) -> None:
-    """Puts the eye there."""
+    """Puts the eye there; a narrow window sees less to its sides, so from farther away."""
     eye, centre = view
+    if camera.update_timestamp:  # before the browser has said anything, its window is not known
+        eye = centre + max(1.0, _NARROW / max(camera.aspect, 0.2)) * (eye - centre)
     camera.fov = _FIELD
     camera.up_direction = (0.0, 0.0, 1.0)
     camera.position = tuple(eye)

@@ -94,7 +94,7 @@ class NextTouch:
                     tool=tool,
                     spike=world.p_base_spike_drawn,
                     touches=state.touches,
-                    reference=None if len(made) else robot.forward(q).rotation,
+                    reference=None if len(made) else robot.forward(robot.home).rotation,
                     robot=robot,
                     q_near=q,
                     collides=collisions(robot, world).check,
