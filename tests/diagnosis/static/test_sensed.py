@@ -37,7 +37,9 @@ def test_a_known_load_is_still_carried_when_a_convention_is_undone(arm, tmp_path
     rng = np.random.default_rng(9)
     q = poses(arm, rng, 20)
     load = np.where(np.arange(20) % 2, 5.0, 0.0)
-    table = write_tracker(tmp_path / "r.csv", arm, q, tracker_rows(arm, q, rng=rng), extra={"payload_kg": load})
+    table = write_tracker(
+        tmp_path / "r.csv", arm, q, tracker_rows(arm, q, rng=rng), extra={"payload_kg": load}
+    )
     recording = read_static(table, arm)
     again = recording.with_joints(arm, recording.q)
     assert np.allclose(again.situation.torque, recording.situation.torque)
