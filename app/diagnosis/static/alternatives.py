@@ -7,8 +7,8 @@ import numpy as np
 from app.diagnosis.result import Alternative
 from app.diagnosis.static.fit import Fitted
 from app.diagnosis.static.library import Candidate, library
+from app.diagnosis.static.looking import score_all, without
 from app.diagnosis.static.score import basis
-from app.diagnosis.static.search import score_all, without
 
 #: Difference of BIC within which two models are not told apart (a Bayes factor of 100).
 MARGIN = 9.2

@@ -9,9 +9,9 @@ from app.diagnosis.static.alternatives import alternatives_of
 from app.diagnosis.static.fit import Fitted, covariance
 from app.diagnosis.static.heldout import KEPT, heldout_squares, interleaved
 from app.diagnosis.static.library import Candidate
+from app.diagnosis.static.looking import without
 from app.diagnosis.static.noise import component_rms
 from app.diagnosis.static.score import basis
-from app.diagnosis.static.search import without
 from app.units import mm
 
 #: Growth of the held-out error without a finding that is no chance where structure remains.

@@ -11,8 +11,8 @@ from app.diagnosis.static.curves import JOINT_CURVE, shape_functions, smooth
 from app.diagnosis.static.effect import Place
 from app.diagnosis.static.fit import Fitted
 from app.diagnosis.static.library import Candidate, Library
+from app.diagnosis.static.looking import with_ghosts
 from app.diagnosis.static.score import basis, flips, score_library
-from app.diagnosis.static.search import with_ghosts
 
 #: Chance below which something is said to be left over.
 LEVEL = 0.01

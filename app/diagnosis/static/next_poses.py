@@ -9,8 +9,8 @@ import numpy as np
 from app.diagnosis.result import Finding
 from app.diagnosis.static.fit import Fitted, fit
 from app.diagnosis.static.library import Candidate
+from app.diagnosis.static.looking import new_term
 from app.diagnosis.static.recording import StaticRecording
-from app.diagnosis.static.search import new_term
 from app.diagnosis.static.situation import situation_for
 from app.kinematics import RobotModel
 

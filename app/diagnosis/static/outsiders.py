@@ -9,6 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from app.diagnosis.static.fit import Fitted
+from app.diagnosis.static.looking import without
 from app.diagnosis.static.score import basis
 from app.diagnosis.static.situation import Situation
 
@@ -57,12 +58,7 @@ def outsider_advantage(fitted: Fitted, indices: list[int], joint: int, family: s
     Args:
         joint: 1-based.
     """
-    keep = np.ones(fitted.jacobian.shape[1], bool)
-    white = fitted.white.copy()
-    for index in indices:
-        where = fitted.slices[index]
-        keep[where] = False
-        white = white + fitted.jacobian[:, where] @ fitted.terms[index].values
+    jacobian, white = without(fitted, *indices)
     laws = outside_laws(fitted.recording.situation, joint - 1, family)
     if not laws.shape[1]:
         return -np.inf
@@ -77,7 +73,7 @@ def outsider_advantage(fitted: Fitted, indices: list[int], joint: int, family: s
     mine = n * np.log(fitted.rss / n) + taken * np.log(n)
     best = np.inf
     for extra, price in ((np.zeros((len(constant), 0)), 2), (constant, 3)):
-        base = basis(np.concatenate([fitted.jacobian[:, keep], extra], axis=1))
+        base = basis(np.concatenate([jacobian, extra], axis=1))
         rest = white - base.q @ (base.q.T @ white)
         projected = base.project(columns)
         length = np.einsum("nc,nc->c", projected, projected)

@@ -129,7 +129,7 @@ def score_library(
     raw = np.einsum("ng,ng->g", library.matrix, library.matrix)
     projected = base.project(library.matrix)
     sizes = np.diff(library.starts)
-    unit, visible = _orthonormal(projected, raw, library.starts, sizes)
+    unit, visible = orthonormal(projected, raw, library.starts, sizes)
     both_white = np.column_stack([white, flipped])
     both = unit.T @ both_white  # (g, 1 + f)
     gains = (
@@ -172,7 +172,7 @@ def score_library(
     )
 
 
-def _orthonormal(projected: np.ndarray, raw: np.ndarray, starts: np.ndarray, sizes: np.ndarray):
+def orthonormal(projected: np.ndarray, raw: np.ndarray, starts: np.ndarray, sizes: np.ndarray):
     """Columns made orthonormal within each candidate, and the visible share of each candidate."""
     unit = np.zeros_like(projected)
     visible = np.zeros(len(sizes))

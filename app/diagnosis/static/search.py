@@ -7,23 +7,30 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from app.diagnosis.static.fit import Fitted, Term, fit
+from app.diagnosis.static.fit import Fitted, fit
 from app.diagnosis.static.heldout import heldout_loss
-from app.diagnosis.static.library import Candidate, Library, library
+from app.diagnosis.static.library import Candidate, library
+from app.diagnosis.static.looking import (
+    LEAST_VISIBLE,
+    at_bound,
+    key_of,
+    new_term,
+    score_all,
+    with_ghosts,
+    without,
+)
 from app.diagnosis.static.noise import weights_from
 from app.diagnosis.static.scan import SCAN_ROWS, with_row
-from app.diagnosis.static.score import Basis, Scores, basis, family_wise, flips, score_library, significance
+from app.diagnosis.static.score import Scores, basis, family_wise, flips
 from app.diagnosis.static.serial import coloured_score, stretch, stretch_flips
+from app.diagnosis.static.settling import settle
 
 #: A term is taken only where chance would do as well in at most this share of searches.
 LEVEL = 0.01
 MOST_TERMS = 6
 NULLS = 199
-#: Share of an effect's signature that base, tool and the rest must leave for it to be named.
-LEAST_VISIBLE = 0.05
 _TRIES = 8  # candidates looked at before a round is given up
 _ALIKE = 0.05  # difference of -log10 p below which two candidates count as exactly alike
-_BETTER = 0.5  # difference of -log10 p that makes a swap worth a fit
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,24 +46,6 @@ class Found:
     fitted: Fitted
     p_values: tuple[float, ...]
     null: np.ndarray
-
-
-def new_term(candidate: Candidate, fitted: Fitted) -> Term:
-    """The candidate as a term that starts from nothing."""
-    count = len(candidate.effect.quantities(fitted.recording.situation, candidate.place))
-    return Term(candidate.effect, candidate.place, np.zeros(count))
-
-
-def score_all(
-    fitted: Fitted, lib: Library, base: Basis, signs: np.ndarray | None, white: np.ndarray | None = None
-) -> Scores:
-    """Scores of the whole library on what the fit leaves."""
-    recording = fitted.recording
-    rest = fitted.white if white is None else white
-    rest = rest - base.q @ (base.q.T @ rest)
-    dof = max(fitted.size - base.q.shape[1], 2)
-    order = np.concatenate([recording.situation.order, np.zeros(fitted.ghosts)])
-    return score_library(lib, base, rest, fitted.rows, dof, signs, order)
 
 
 def forward(
@@ -143,16 +132,6 @@ def follows_the_clock(candidate: Candidate) -> bool:
     return candidate.place.scan or "from_row" in where or where.get("driver") == "time"
 
 
-def with_ghosts(pose: np.ndarray, ghosts: int) -> np.ndarray:
-    """Numbers of the poses, every ghost row one of its own."""
-    return np.concatenate([pose, pose.max() + 1 + np.arange(ghosts)])
-
-
-def key_of(key: str, where) -> tuple:
-    """Identity of a finding for "is it in already": steps of one kind may recur at another row."""
-    return (key, *sorted((k, v) for k, v in where.items()))
-
-
 def _by_rank(order: np.ndarray, scores: Scores) -> list[int]:
     """By score; among candidates that explain exactly alike, the one a person would name first."""
     best: list[int] = []
@@ -167,13 +146,6 @@ def _by_rank(order: np.ndarray, scores: Scores) -> list[int]:
     return best
 
 
-def at_bound(fitted: Fitted, index: int) -> bool:
-    """True where a fitted value sits on a physical bound, which means the effect has the wrong sign."""
-    term = fitted.terms[index]
-    quantities = term.effect.quantities(fitted.recording.situation, term.place)
-    return any(v <= q.lower or v >= q.upper for v, q in zip(term.values, quantities, strict=True))
-
-
 def improves(before: Fitted, after: Fitted) -> bool:
     """True where the rows left out are predicted better, in interleaved and in time-block folds together."""
     pose = before.recording.pose
@@ -181,74 +153,6 @@ def improves(before: Fitted, after: Fitted) -> bool:
     old = heldout_loss(before.jacobian, before.white, pose, before.ghosts)
     new = heldout_loss(after.jacobian, after.white, pose, after.ghosts)
     return new[0] < old[0] and new[0] + new[1] < old[0] + old[1]
-
-
-def without(fitted: Fitted, index: int) -> tuple[np.ndarray, np.ndarray]:
-    """Jacobian without term `index`, and the residual with its share put back."""
-    where = fitted.slices[index]
-    keep = np.ones(fitted.jacobian.shape[1], bool)
-    keep[where] = False
-    white = fitted.white + fitted.jacobian[:, where] @ fitted.terms[index].values
-    return fitted.jacobian[:, keep], white
-
-
-def settle(now: Fitted, wanted: tuple[Candidate, ...], passes: int = 4) -> Fitted:
-    """Swaps each term for a better one at another place, and puts every step at its best row, until none moves."""
-    if not [t for t in now.terms if not t.tacit]:
-        return now
-    for _ in range(passes):
-        changed = False
-        for index, term in enumerate(now.terms):
-            if term.tacit:
-                continue
-            better = _better(now, index, wanted)
-            if better is not None:
-                now, changed = better, True
-        if not changed:
-            break
-    return now
-
-
-def _better(now: Fitted, index: int, wanted: tuple[Candidate, ...]) -> Fitted | None:
-    jacobian, white = without(now, index)
-    base = basis(jacobian)
-    scores = score_all(now, library(now.columns, wanted, now.ghosts), base, None, white)
-    term = now.terms[index]
-    mine = _own_score(now, index, base, white)
-    others = {key_of(t.effect.key, t.where) for i, t in enumerate(now.terms) if i != index}
-    for at in scores.order()[:3]:
-        candidate = scores.candidates[at]
-        label = key_of(candidate.effect.key, candidate.place.where)
-        if label in others or label == key_of(term.effect.key, term.where):
-            continue
-        if scores.visible[at] < LEAST_VISIBLE:
-            continue
-        margin = 0.01 if _same_but_row(candidate, term) else _BETTER
-        if scores.score[at] < mine + margin:
-            return None
-        terms = list(now.terms)
-        terms[index] = new_term(candidate, now)
-        trial = fit(now.recording, now.setup, tuple(terms), now.weights, held=now.held)
-        if not at_bound(trial, index) and trial.bic < now.bic - 1e-6:
-            return trial
-    return None
-
-
-def _same_but_row(candidate: Candidate, term: Term) -> bool:
-    def bare(where):
-        return {k: v for k, v in where.items() if k != "from_row"}
-
-    return candidate.effect is term.effect and bare(candidate.place.where) == bare(term.where)
-
-
-def _own_score(now: Fitted, index: int, base: Basis, white: np.ndarray) -> float:
-    """-log10 p of the term that sits there now, by the same measure as its rivals."""
-    block = base.project(now.jacobian[:, now.slices[index]])
-    rest = white - base.q @ (base.q.T @ white)
-    own = basis(block)
-    gain = float(np.sum((own.q.T @ rest) ** 2))
-    dof = max(now.size - base.q.shape[1], 2)
-    return float(significance(np.array(gain), float(rest @ rest), block.shape[1], dof))
 
 
 def refined(now: Fitted) -> Fitted:

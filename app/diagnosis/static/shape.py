@@ -8,8 +8,8 @@ import numpy as np
 
 from app.diagnosis.static.curves import shape_functions
 from app.diagnosis.static.fit import Fitted, Term
+from app.diagnosis.static.looking import without
 from app.diagnosis.static.score import basis, significance
-from app.diagnosis.static.search import without
 
 #: Chance at which a free curve of the same driver may beat the law before the name is withheld.
 LEVEL = 0.002
@@ -56,13 +56,8 @@ def dominant(fitted: Fitted, indices: list[int], share: float = SHARE) -> bool:
 
     Such a law stands, whatever company it keeps: what the others pick up is too little to put its name in doubt.
     """
-    keep = np.ones(fitted.jacobian.shape[1], bool)
-    white = fitted.white.copy()
-    for index in indices:
-        where = fitted.slices[index]
-        keep[where] = False
-        white = white + fitted.jacobian[:, where] @ fitted.terms[index].values
-    base = basis(fitted.jacobian[:, keep])
+    jacobian, white = without(fitted, *indices)
+    base = basis(jacobian)
     rest = white - base.q @ (base.q.T @ white)
     blocks = [base.project(fitted.jacobian[:, fitted.slices[index]]) for index in indices]
     gains = [float(np.sum((basis(block).q.T @ rest) ** 2)) for block in blocks]

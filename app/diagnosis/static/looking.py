@@ -1,0 +1,58 @@
+"""The library held against what a fit leaves, and a fit without some of its terms."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from app.diagnosis.static.fit import Fitted, Term
+from app.diagnosis.static.library import Candidate, Library
+from app.diagnosis.static.score import Basis, Scores, score_library
+
+#: Share of an effect's signature that base, tool and the rest must leave for it to be named.
+LEAST_VISIBLE = 0.05
+
+
+def new_term(candidate: Candidate, fitted: Fitted) -> Term:
+    """The candidate as a term that starts from nothing."""
+    count = len(candidate.effect.quantities(fitted.recording.situation, candidate.place))
+    return Term(candidate.effect, candidate.place, np.zeros(count))
+
+
+def score_all(
+    fitted: Fitted, lib: Library, base: Basis, signs: np.ndarray | None, white: np.ndarray | None = None
+) -> Scores:
+    """Scores of the whole library on what the fit leaves."""
+    recording = fitted.recording
+    rest = fitted.white if white is None else white
+    rest = rest - base.q @ (base.q.T @ rest)
+    dof = max(fitted.size - base.q.shape[1], 2)
+    order = np.concatenate([recording.situation.order, np.zeros(fitted.ghosts)])
+    return score_library(lib, base, rest, fitted.rows, dof, signs, order)
+
+
+def with_ghosts(pose: np.ndarray, ghosts: int) -> np.ndarray:
+    """Numbers of the poses, every ghost row one of its own."""
+    return np.concatenate([pose, pose.max() + 1 + np.arange(ghosts)])
+
+
+def key_of(key: str, where) -> tuple:
+    """Identity of a finding for "is it in already": steps of one kind may recur at another row."""
+    return (key, *sorted((k, v) for k, v in where.items()))
+
+
+def at_bound(fitted: Fitted, index: int) -> bool:
+    """True where a fitted value sits on a physical bound, which means the effect has the wrong sign."""
+    term = fitted.terms[index]
+    quantities = term.effect.quantities(fitted.recording.situation, term.place)
+    return any(v <= q.lower or v >= q.upper for v, q in zip(term.values, quantities, strict=True))
+
+
+def without(fitted: Fitted, *indices: int) -> tuple[np.ndarray, np.ndarray]:
+    """Jacobian without the terms `indices`, and the residual with their share put back."""
+    keep = np.ones(fitted.jacobian.shape[1], bool)
+    white = fitted.white.copy()
+    for index in indices:
+        where = fitted.slices[index]
+        keep[where] = False
+        white += fitted.jacobian[:, where] @ fitted.terms[index].values
+    return fitted.jacobian[:, keep], white

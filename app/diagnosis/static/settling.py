@@ -1,0 +1,101 @@
+"""Terms that are in already, moved to where they explain more: one at a time, and two at once."""
+
+from __future__ import annotations
+
+from itertools import combinations
+
+import numpy as np
+
+from app.diagnosis.static.fit import Fitted, Term, fit
+from app.diagnosis.static.library import Candidate, library
+from app.diagnosis.static.looking import LEAST_VISIBLE, at_bound, key_of, new_term, score_all, without
+from app.diagnosis.static.pairs import rival_pairs
+from app.diagnosis.static.score import Basis, basis, significance
+
+_BETTER = 0.5  # difference of -log10 p that makes a swap worth a fit
+#: BIC that two others must gain before two terms make way for them: less is what many pairs gain by chance.
+EXCHANGE = 2.0
+
+
+def settle(now: Fitted, wanted: tuple[Candidate, ...], passes: int = 4) -> Fitted:
+    """Swaps each term for a better one at another place, and puts every step at its best row, until none moves;
+    then two terms for two others, and again."""
+    if not [t for t in now.terms if not t.tacit]:
+        return now
+    for _ in range(passes):
+        changed = False
+        for index, term in enumerate(now.terms):
+            if term.tacit:
+                continue
+            better = _better(now, index, wanted)
+            if better is not None:
+                now, changed = better, True
+        if not changed:
+            other = _exchanged(now, wanted)
+            if other is None:
+                break
+            now = other
+    return now
+
+
+def _better(now: Fitted, index: int, wanted: tuple[Candidate, ...]) -> Fitted | None:
+    jacobian, white = without(now, index)
+    base = basis(jacobian)
+    scores = score_all(now, library(now.columns, wanted, now.ghosts), base, None, white)
+    term = now.terms[index]
+    mine = _own_score(now, index, base, white)
+    others = {key_of(t.effect.key, t.where) for i, t in enumerate(now.terms) if i != index}
+    for at in scores.order()[:3]:
+        candidate = scores.candidates[at]
+        label = key_of(candidate.effect.key, candidate.place.where)
+        if label in others or label == key_of(term.effect.key, term.where):
+            continue
+        if scores.visible[at] < LEAST_VISIBLE:
+            continue
+        margin = 0.01 if _same_but_row(candidate, term) else _BETTER
+        if scores.score[at] < mine + margin:
+            return None
+        terms = list(now.terms)
+        terms[index] = new_term(candidate, now)
+        trial = fit(now.recording, now.setup, tuple(terms), now.weights, held=now.held)
+        if not at_bound(trial, index) and trial.bic < now.bic - 1e-6:
+            return trial
+    return None
+
+
+def _same_but_row(candidate: Candidate, term: Term) -> bool:
+    def bare(where):
+        return {k: v for k, v in where.items() if k != "from_row"}
+
+    return candidate.effect is term.effect and bare(candidate.place.where) == bare(term.where)
+
+
+def _own_score(now: Fitted, index: int, base: Basis, white: np.ndarray) -> float:
+    """-log10 p of the term that sits there now, by the same measure as its rivals."""
+    block = base.project(now.jacobian[:, now.slices[index]])
+    rest = white - base.q @ (base.q.T @ white)
+    own = basis(block)
+    gain = float(np.sum((own.q.T @ rest) ** 2))
+    dof = max(now.size - base.q.shape[1], 2)
+    return float(significance(np.array(gain), float(rest @ rest), block.shape[1], dof))
+
+
+def _exchanged(now: Fitted, wanted: tuple[Candidate, ...]) -> Fitted | None:
+    """Two terms changed for two others that explain clearly more together; None where none do."""
+    named = [i for i, term in enumerate(now.terms) if not term.tacit]
+    for pair in combinations(named, 2):
+        rest = {key_of(t.effect.key, t.where) for i, t in enumerate(now.terms) if i not in pair}
+        mine = {key_of(now.terms[i].effect.key, now.terms[i].where) for i in pair}
+        for rivals in rival_pairs(now, pair, wanted, 3):
+            if rivals.delta > -EXCHANGE:
+                break
+            labels = {key_of(c.effect.key, c.place.where) for c in (rivals.first, rivals.second)}
+            if labels & rest or labels == mine:
+                continue
+            terms = list(now.terms)
+            for index, candidate in zip(pair, (rivals.first, rivals.second), strict=True):
+                terms[index] = new_term(candidate, now)
+            trial = fit(now.recording, now.setup, tuple(terms), now.weights, held=now.held)
+            if not any(at_bound(trial, i) for i in pair) and trial.bic < now.bic - EXCHANGE:
+                return trial
+    return None
