@@ -200,11 +200,12 @@ def _bodies(robot: RobotModel, tool_shapes: Sequence[Shape], obstacles: Sequence
         points = np.concatenate([s.T_body_shape.apply(outline(s)) for s in shapes])
         yield body, name, _hull(points), Pose.identity(), [_hull(s.points) for s in solids(shapes)]
     for shape in obstacles:
-        solid = _solid(shape)
+        solid = coal_solid(shape)
         yield 0, _readable(shape.link), solid, shape.T_body_shape, [solid]
 
 
-def _solid(shape: Shape):
+def coal_solid(shape: Shape):
+    """The solid of one shape in its own frame: exact where there is a primitive, else the hull of its points."""
     if shape.kind == "halfspace":
         return coal.Halfspace(np.array([0.0, 0.0, 1.0]), 0.0)
     if shape.kind == "cylinder" and shape.size[0] == shape.size[2]:

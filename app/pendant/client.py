@@ -13,6 +13,7 @@ import viser
 from app.errors import TeachframeError, one_line
 from app.geometry import Pose
 from app.kinematics import IkResult, RobotModel, solve_ik
+from app.kinematics.singular import singular_joints
 from app.pendant.aids import Aids
 from app.pendant.dragging import Dragging
 from app.pendant.exercising import aids_of, cell_key
@@ -108,6 +109,8 @@ class Pendant(Moving):
         state = self.session.state
         if as_tuple(self.q) != state.q:
             self.show(np.array(state.q))
+        else:
+            self.stage.handle.place(self.hand())  # another tool may have been accepted
         if any(a is not b for a, b in zip(cell_key(state), self._source, strict=True)):
             self.world = self._own_world()
             self.stage.cell(self.world)
@@ -139,12 +142,14 @@ class Pendant(Moving):
             self.model,
             target,
             self.q if start is None else start,
-            T_flange_tool=self.world.T_flange_tool_hand,
+            T_flange_tool=self.T_flange_tool,
         )
 
     def why(self, result: IkResult) -> str:
         """Why the arm did not get further."""
-        return self.t(f"message.{result.reason}", joints=", ".join(map(str, result.joints)))
+        singular = result.reason == "singular"
+        joints = singular_joints(self.model, result.q) if singular else result.joints
+        return self.t(f"message.{result.reason}", joints=", ".join(map(str, joints)))
 
     # The life of the view --------------------------------------------------------------------------------
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from app.geometry import Pose
+from app.pendant.guarding import words
 
 if TYPE_CHECKING:
     from app.pendant.client import Pendant
@@ -32,19 +33,22 @@ class Dragging:
             worker.latest("drag", lambda: self.follow(target))
 
     def follow(self, target: Pose) -> None:
-        """The arm goes as near to `target`, T_base_tool, as it can."""
+        """The arm goes as near to `target`, T_base_tool, as it can and nothing is hit."""
         pendant = self._pendant
         pendant.jogging.must_not_be_stopped()
         pendant.worker.halt("move")
         result = pendant.solve(target)
-        pendant.show(result.q)
-        words = "" if result.reached else pendant.why(result)
-        if words != self._told:
-            if words:
-                pendant.say("warning", words)
+        stop = pendant.advance(result.q)
+        if stop is not None:
+            why = words(stop, pendant.t, pendant.language)
+        else:
+            why = "" if result.reached else pendant.why(result)
+        if why != self._told:
+            if why:
+                pendant.say("warning", why)
             else:
                 pendant.layout.message("info", "")
-            self._told = words
+            self._told = why
 
     def _end(self, target: Pose) -> None:
         pendant = self._pendant
@@ -52,6 +56,6 @@ class Dragging:
             self.follow(target)
         finally:  # let go of in any case: the handle stands where the tool is
             self._told = ""
-            pendant.stage.handle.place(pendant.world.hand(pendant.q))
+            pendant.stage.handle.place(pendant.hand())
             pendant.settle()
             pendant.page.numbers()

@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterator
+from typing import Any
 
 import numpy as np
 
+from app.geometry import Pose
 from app.pendant import motion
+from app.pendant.guarding import guard_of, words
 from app.pendant.inputs import Inputs
 from app.pendant.jogging import Jogging
 from app.pendant.page import Page
@@ -17,6 +20,8 @@ from app.pendant.worker import Job
 from app.session import Session
 from app.session.actions import Move
 from app.session.state import as_tuple
+from app.simulation.guard import Guard, Stop
+from app.simulation.route import route
 from app.simulation.world import World
 
 _SETTLED = 0.5  # seconds without motion after which where the arm stands is written down
@@ -33,29 +38,76 @@ class Moving(Inputs):
     page: Page
     q: np.ndarray
     trail: Trail
+    language: str
     _numbers_at = 0.0
+    _guard: Guard | None = None
+
+    def t(self, key: str, **fields: Any) -> str:
+        """A text in the operator's language."""
+        raise NotImplementedError
+
+    def say(self, level: str, words: str) -> None:
+        """The message line, and the log."""
+        raise NotImplementedError
 
     def go(self, q: np.ndarray, then: Job | None = None) -> None:
         """The arm moves to q (n,), visibly; `then` is done at the end."""
         self.tour([np.asarray(q, float)], lambda number: then() if then and number < 0 else None, 0.0)
 
-    def tour(self, stops: list[np.ndarray], arrived: Callable[[int], object], rest: float = 0.5) -> None:
-        """The arm goes through poses; `arrived` hears the number of each, and once more -1 at the end."""
+    def tour(
+        self,
+        stops: list[np.ndarray],
+        arrived: Callable[[int], object],
+        rest: float = 0.5,
+        *,
+        checked: bool = True,
+    ) -> None:
+        """The arm goes through poses; `arrived` hears the number of each, and once more -1 at the end.
+
+        Args:
+            checked: each way is looked at first, and gone round what is in it; where none is free the tour ends and
+                the operator hears why. False goes straight: for poses somebody has been at.
+        """
         self.jogging.must_not_be_stopped()
-        self.worker.animate("move", self._travel(stops, arrived, rest))
+        self.worker.animate("move", self._travel(stops, arrived, rest, checked))
         self.page.numbers()
 
     def place(self, q: np.ndarray) -> None:
-        """The arm stands at q (n,) at once, within its limits."""
+        """The arm goes to q (n,) at once, within its limits, as far as nothing is hit."""
         self.jogging.must_not_be_stopped()
         self.worker.halt("move")
-        self.show(np.clip(q, self.world.robot.lower, self.world.robot.upper))
+        stop = self.advance(np.clip(q, self.world.robot.lower, self.world.robot.upper))
         self.worker.animate("settle", self._settle_later())
+        if stop is not None:
+            self.say("warning", words(stop, self.t, self.language))
+
+    def advance(self, q: np.ndarray) -> Stop | None:
+        """The arm goes straight to q (n,) at once, or to what is in its way, which is given back."""
+        at, stop = self.guard.advance(self.q, q)
+        self.show(at)
+        return stop
+
+    @property
+    def guard(self) -> Guard:
+        """What keeps this arm from hitting anything."""
+        if self._guard is None or self._guard.world is not self.world:
+            self._guard = guard_of(self.world)
+        return self._guard
+
+    @property
+    def T_flange_tool(self) -> Pose:
+        """The tool the controller reckons with: the accepted one, else the cell's."""
+        tool = self.session.state.tool
+        return self.world.T_flange_tool_hand if tool is None else tool.T_flange_tool
+
+    def hand(self, q: np.ndarray | None = None) -> Pose:
+        """T_base_tool as the controller reckons it; q (n,), or where the arm stands."""
+        return self.world.shown_flange(self.q if q is None else q) @ self.T_flange_tool
 
     def show(self, q: np.ndarray) -> None:
         """Draws the arm at q (n,); the numbers follow a little slower."""
         self.q = np.asarray(q, float)
-        self.stage.pose(self.q, self.world)
+        self.stage.pose(self.q, self.world, self.hand())
         if self.session.state.running is not None:
             self.trail.passing(self.q)
         now = time.monotonic()
@@ -71,10 +123,17 @@ class Moving(Inputs):
             self.session.do(Move(as_tuple(self.q), self.trail.take()))
 
     def _travel(
-        self, stops: list[np.ndarray], arrived: Callable[[int], object], rest: float
+        self, stops: list[np.ndarray], arrived: Callable[[int], object], rest: float, checked: bool
     ) -> Iterator[None]:
         for number, stop in enumerate(stops):
-            yield from motion.move(self.q.copy(), stop, self.show)
+            way = route(self.world, self.guard, self.q, stop) if checked else [stop]
+            if isinstance(way, Stop):
+                self.settle()
+                why = words(way, self.t, self.language)
+                self.say("warning", self.t("message.no_way", why=why))
+                return
+            for leg in way:
+                yield from motion.move(self.q.copy(), leg, self.show)
             self.page.numbers()
             arrived(number)
             yield from motion.pause(rest)

@@ -8,6 +8,7 @@ import numpy as np
 import viser
 
 from app.calibration.verify import Verification
+from app.geometry import Pose
 from app.pendant.arm import ArmView
 from app.pendant.scene.camera import MORE_VIEWS, VIEWS, look
 from app.pendant.scene.cell import draw_cell
@@ -100,12 +101,12 @@ class Stage:
         """Looks from one of the named places."""
         look(self._client.camera, {**VIEWS, **MORE_VIEWS}[name](self._world))
 
-    def pose(self, q: np.ndarray, world: World) -> None:
-        """The arm at q (n,), the handle at its tool."""
+    def pose(self, q: np.ndarray, world: World, hand: Pose) -> None:
+        """The arm at q (n,), the handle where the controller reckons the tool, T_base_tool."""
         self.arm.set(q)
         if self._held is not None:
             self._held.pose(q, world)
-        self.handle.place(world.hand(q))
+        self.handle.place(hand)
         self.next_arm.arm_at(q)
 
     def refresh(self, state: SessionState) -> None:

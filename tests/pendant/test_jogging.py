@@ -1,14 +1,18 @@
 """Hold-to-move on the server: enabling, silence, emergency stop, frames, increments, speed."""
 
 import time
+from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
 import pytest
 
+from app.geometry import Pose, exp_so3
+from app.kinematics import solve_ik
 from app.pendant.jogging import INCREMENTS, SILENCE, TIP_SPEED, Jog
 from app.pendant.server import PendantServer
 from app.session import Store
+from app.session.state import Tool
 from app.units import from_mm
 from benchmarks._browser import Browser
 from tests.pendant.test_server import until
@@ -124,7 +128,104 @@ def test_the_tip_never_exceeds_the_manual_speed(pendant):
 def test_a_joint_at_its_limit_says_which(pendant):
     pendant.jogging.enabled, pendant.jogging.increment = True, "large"
     q = pendant.q.copy()
-    q[1] = pendant.model.upper[1]
+    q[5] = pendant.model.upper[5]
     pendant.post(lambda: pendant.place(q))
-    press(pendant, "joint", 1)
-    assert pendant.log[-1][2] == "Stopped: axis 2 at its limit."
+    press(pendant, "joint", 5)
+    assert pendant.log[-1][2] == "Stopped: axis 6 at its limit."
+
+
+def test_a_table_stops_the_tip_before_it_is_hit_and_is_named(pendant):
+    pendant.jogging.enabled, pendant.jogging.override = True, 1.0
+    q = pendant.q.copy()
+    q[0] += 0.25  # beside the spike, over the table
+    pendant.post(lambda: pendant.place(q))
+    press(pendant, "base", 2, -1, seconds=4.0)
+    words = pendant.log[-1][2]
+    assert "would hit the table" in words, words
+    height = pendant.world.tip(pendant.q).position[2] - pendant.world.table_height
+    assert 0.0 < height < from_mm(60.0)
+    pendant.language = "zh"
+    press(pendant, "base", 2, -1)
+    assert "工作台" in pendant.log[-1][2]
+    low = pendant.q.copy()
+    press(pendant, "base", 2, 1, seconds=0.3)  # away is always free
+    assert pendant.world.tip(pendant.q).position[2] > pendant.world.tip(low).position[2]
+
+
+def test_contact_with_the_spike_stops_the_tip_on_its_point(pendant):
+    pendant.jogging.enabled, pendant.jogging.override = True, 0.3
+    world = pendant.world
+    above = solve_ik(
+        pendant.model,
+        Pose.of(world.tip(pendant.q).rotation, world.p_base_spike + np.array([0.0, 0.0, from_mm(30.0)])),
+        pendant.q,
+        T_flange_tool=world.T_flange_tool_true,
+    )
+    pendant.post(lambda: pendant.place(above.q))
+    press(pendant, "base", 2, -1, seconds=1.5)
+    assert world.distance(pendant.q) < from_mm(0.5)
+    assert "touches the spike" in pendant.log[-1][2]
+    press(pendant, "base", 2, -1, seconds=0.3)  # pressed again: it goes no further
+    assert world.distance(pendant.q) < from_mm(0.5)
+    press(pendant, "base", 2, 1, seconds=0.6)
+    assert world.distance(pendant.q) > from_mm(5.0)
+
+
+def test_a_straight_wrist_stops_a_jog_and_says_which_axes(pendant):
+    pendant.jogging.enabled, pendant.jogging.override = True, 1.0
+    q = pendant.q.copy()
+    q[4] = 0.0  # axes 4 and 6 parallel
+    pendant.post(lambda: pendant.place(q))
+    press(pendant, "tool", 3, seconds=1.0)
+    assert "undo each other" in pendant.log[-1][2] or not np.array_equal(pendant.q, q)
+    press(pendant, "tool", 4, seconds=1.0)
+    said = [words for _, _, words in pendant.log if "undo each other" in words]
+    assert said and "4" in said[0] and "6" in said[0], pendant.log[-3:]
+
+
+@pytest.mark.parametrize("axis", [0, 1, 2, 3, 4, 5])
+def test_the_user_frame_is_jogged_along_its_own_axes(pendant, axis):
+    turned = Pose.of(exp_so3(np.array([0.2, -0.3, 0.7])), np.array([0.4, 0.1, 0.2]))
+    pendant.jogging.enabled, pendant.jogging.increment = True, "large"
+    pendant.jogging.T_base_user = turned
+    start = pendant.world.tip(pendant.q)
+    press(pendant, "user", axis)
+    end = pendant.world.tip(pendant.q)
+    length, angle = INCREMENTS["large"]
+    along = turned.rotation[:, axis % 3]
+    if axis < 3:
+        assert np.allclose(end.position - start.position, length * along, atol=STEP_TOLERANCE)
+    else:
+        assert np.allclose(end.position, start.position, atol=STEP_TOLERANCE)
+        assert np.allclose(end.rotation @ start.rotation.T, exp_so3(angle * along), atol=1e-5)
+
+
+def test_an_accepted_tool_is_what_is_jogged_about(pendant):
+    pendant.jogging.enabled, pendant.jogging.increment = True, "large"
+    other = Tool("other", Pose.of(None, np.array([0.05, 0.02, 0.3])))
+    pendant.session.state = replace(pendant.session.state, tools=(other,))
+    start = pendant.world.shown_flange(pendant.q) @ other.T_flange_tool
+    press(pendant, "base", 5)
+    end = pendant.world.shown_flange(pendant.q) @ other.T_flange_tool
+    assert np.allclose(end.position, start.position, atol=STEP_TOLERANCE)
+    assert np.linalg.norm(pendant.world.tip(pendant.q).position - start.position) > from_mm(5.0)
+
+
+@pytest.mark.parametrize("frame", ["base", "tool", "user"])
+def test_no_frame_exceeds_the_manual_speed_and_the_line_is_straight(pendant, frame):
+    pendant.jogging.enabled, pendant.jogging.override = True, 1.0
+    tips = []
+    show = pendant.show
+
+    def watched(q):
+        show(q)
+        tips.append((time.monotonic(), pendant.world.tip(q).position))
+
+    pendant.show = watched
+    press(pendant, frame, 1, seconds=0.5)
+    way = sum(np.linalg.norm(b[1] - a[1]) for a, b in pairwise(tips))
+    assert 0 < way <= TIP_SPEED * (tips[-1][0] - tips[0][0] + 0.1)
+    points = np.array([p for _, p in tips])
+    line = points[-1] - points[0]
+    off = np.cross(points - points[0], line / np.linalg.norm(line))
+    assert np.abs(off).max() < STEP_TOLERANCE

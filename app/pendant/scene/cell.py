@@ -1,4 +1,4 @@
-"""The table and the spike on it."""
+"""The table, the spike on it, and a fence behind the arm and beside it."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ import viser
 
 from app.kinematics.shapes import Shape, box, rod
 from app.pendant.arm import draw_shapes
+from app.pendant.scene.fence import fence_panels, fence_shapes
 from app.simulation.world import World
 from app.units import from_mm
 
@@ -18,6 +19,17 @@ _PLATE = from_mm(40.0)  # thickness of the table's top
 _EDGE = from_mm(620.0)
 
 
+def table_corner(world: World) -> np.ndarray:
+    """(3,) the corner of the table's top from which it lies towards +X and +Y of base [m]."""
+    x, y, _ = world.p_base_spike_drawn
+    return np.array([x - _EDGE / 2, y - _EDGE / 2, world.table_height])
+
+
+def cell_obstacles(world: World) -> tuple[Shape, ...]:
+    """What can be hit: table, spike, and the fence as closed panels."""
+    return (*cell_shapes(world), *fence_panels(world))
+
+
 def cell_shapes(world: World) -> tuple[Shape, ...]:
     """Table with four legs, and a spike that stands on it."""
     spike, top = world.p_base_spike_drawn, world.table_height
@@ -26,7 +38,7 @@ def cell_shapes(world: World) -> tuple[Shape, ...]:
     shapes = [
         box((_EDGE, _EDGE, _PLATE), (x, y, top - _PLATE / 2), link="table", colour=_TOP),
         rod(foot, foot + _up(from_mm(14.0)), _FOOT, link="spike foot", colour=_DARK),
-        rod(foot, spike - _up(_CONE), _ROD, link="spike", colour=_DARK),
+        rod(foot, spike - _up(_CONE), _ROD, link="spike rod", colour=_DARK),
         rod(spike - _up(_CONE), spike, _ROD, 0.0, link="spike", colour=_STEEL),
     ]
     reach = _EDGE / 2 - from_mm(35.0)
@@ -43,4 +55,4 @@ def _up(height: float) -> np.ndarray:
 
 def draw_cell(scene: viser.SceneApi, world: World) -> viser.FrameHandle:
     """Draws the cell, in place of the one before; the node it hangs on."""
-    return draw_shapes(scene, "/cell", cell_shapes(world))
+    return draw_shapes(scene, "/cell", (*cell_shapes(world), *fence_shapes(world)))

@@ -100,7 +100,7 @@ class Showing:
             self._ended()
             self._caption.content = html.instruction(self._words.mode(mode), pendant.t("training.demo_done"))
 
-        pendant.tour(ways, arrived, rest=_REST)
+        pendant.tour(ways, arrived, rest=_REST, checked=False)
 
     def _say(self, captions: list[Step], number: int) -> None:
         step, t = captions[number], self._pendant.t
