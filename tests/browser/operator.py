@@ -40,8 +40,13 @@ class Operator:
         """Waits until something is so on the server."""
         end = time.monotonic() + PATIENCE_S
         while not true():
-            assert time.monotonic() < end, f"waited {PATIENCE_S:g} s for {what}"
+            assert time.monotonic() < end, f"waited {PATIENCE_S:g} s for {what}; {self.last_words()}"
             self.page.wait_for_timeout(20)
+
+    def last_words(self):
+        """Where the arm stands, and what the pendant said last."""
+        pendant = getattr(self, "pendant", None)
+        return "" if pendant is None else f"arm at {np.degrees(pendant.q).round(2)}, {pendant.log[-3:]}"
 
     def at_rest(self):
         """Waits until the arm stands and everything done is done."""
@@ -67,10 +72,15 @@ class Operator:
         self.page.get_by_role("tab", name=name, exact=True).click()
         self.page.wait_for_timeout(BETWEEN_ACTIONS_MS)
 
+    def shown_angle(self, label):
+        """What the number field beside a slider says."""
+        return float(self.row(label).locator("input[inputmode=decimal]").input_value() or "nan")
+
     def type_angle(self, label, degrees):
         """Types into the number field beside a slider."""
         field = self.row(label).locator("input[inputmode=decimal]")
-        field.fill(f"{degrees:g}")
+        field.click(click_count=3)
+        self.page.keyboard.type(f"{degrees:g}")
         field.press("Enter")
         self.page.wait_for_timeout(BETWEEN_ACTIONS_MS)
 

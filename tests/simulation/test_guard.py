@@ -131,7 +131,7 @@ def test_an_arm_that_stands_in_something_can_leave_it():
     world = default_world(load_robot("jby50"))
     guard = guard_of(world)
     rotation, beside = world.tip(world.robot.home).rotation, world.p_base_spike + np.array([0.0, 0.2, 0.0])
-    inside = np.array([*beside[:2], world.table_height - from_mm(60.0)])
+    inside = np.array([*beside[:2], world.table_height - from_mm(25.0)])
     above = placed(world, rotation, beside, world.robot.home)
     q = placed(world, rotation, inside, above)
     assert min(guard._bodies.touching(q).values()) < -MARGIN
