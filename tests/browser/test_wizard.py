@@ -122,7 +122,7 @@ def take_away(person, result):
 
 
 def go_home(person):
-    """Off the spike before the wrist turns; waits until the page, too, says so: what is typed earlier is written over."""
+    """Off the spike before the wrist turns; waits until the page says so too: what is typed earlier is lost."""
     home = person.pendant.model.home
     person.click("Home")
     person.until(lambda: np.allclose(person.pendant.q, home), "the arm at home")

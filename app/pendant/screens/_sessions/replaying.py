@@ -35,7 +35,9 @@ def played(pendant: Pendant, recorded: Recorded, told) -> Iterator[None]:
         if state.robot == pendant.model.name and isinstance(entry.action, Move):
             for stop in (*entry.action.path[::5], entry.action.q):
                 yield from motion.move(
-                    pendant.stage.arm.q, np.array(stop), lambda q: pendant.stage.pose(q, pendant.world)
+                    pendant.stage.arm.q,
+                    np.array(stop),
+                    lambda q: pendant.stage.pose(q, pendant.world, pendant.hand(q)),
                 )
         else:
             yield from motion.pause(_READ)
@@ -43,7 +45,7 @@ def played(pendant: Pendant, recorded: Recorded, told) -> Iterator[None]:
 
 def back(pendant: Pendant) -> None:
     """The arm stands where its own session has it."""
-    pendant.stage.pose(pendant.q, pendant.world)
+    pendant.stage.pose(pendant.q, pendant.world, pendant.hand())
 
 
 def summary(state: SessionState) -> tuple[int, str]:
