@@ -21,6 +21,7 @@ from app.training.attempt import last_attempt
 from app.training.cell import at_touch, begin, true_tool
 from app.training.exercise import exercise
 from app.training.score import score
+from app.training.tracker import tracker_truth
 from app.training.truth import BESIDE, truth_of
 from app.units import from_deg
 from benchmarks._browser import Browser
@@ -209,3 +210,49 @@ def test_a_session_in_an_exercise_is_not_exported(served):
     assert str(SEED).encode() not in b"".join(tap.texts) + b"".join(tap.buffers)
     done(pendant, lambda: pendant.do(Finish()))
     assert score(chosen, last_attempt(pendant.session.entries)).total == 0.0
+
+
+def test_the_second_robots_place_is_received_nowhere_before_the_end(served):
+    tap, pendant = served
+    chosen = exercise("tracker_was_moved")
+    done(pendant, lambda: pendant.do(begin(chosen, SEED, time.time())))
+    view = next(v for v in pendant.page.views if hasattr(v, "run"))
+    run, truth = view.run, tracker_truth(chosen.key, SEED)
+
+    def measure():
+        while (step := run.wizard.step) is not None:
+            arm = step.robot - 1
+            if step.kind == "nests":
+                for _ in run.cell.nests:
+                    run.measure()
+            elif step.kind == "zero":
+                run.pose(arm, run.now.arms[arm].rest)
+                run.measure()
+            else:
+                for angle in run.now.visible_angles(arm, step.axis, from_deg(20.0), from_deg(60.0)):
+                    run.turn_to(float(angle))
+                    run.measure()
+            run.leave()
+            view._show()
+        view._finish(run)
+
+    done(pendant, measure)
+    done(pendant, view._meet)
+    assert run.meeting is not None and run.relation.warnings[0].code == "tracker_moved"
+    time.sleep(0.5)
+    secret = {"relation": truth.cell.T_base1_base2.position, "push": truth.pushed.position}
+    secret |= {f"robot{k}": arm.T_world_base.position for k, arm in enumerate(truth.cell.arms, 1)}
+    secret |= {f"turn{k}": arm.T_world_base.quaternion for k, arm in enumerate(truth.cell.arms, 1)}
+    secret |= {"tracker": truth.cell.tracker.T_world_tracker.position, "tips": run.meeting.tips.ravel()}
+    found = {
+        (name, float(v) * scale): how
+        for name, values in secret.items()
+        for v in values
+        for scale in (1.0, 1e3)
+        if abs(v) > 1e-9 and (how := tap.holds(float(v) * scale))
+    }
+    assert not found, found
+    training = next(v for v in pendant.page.views if hasattr(v, "showing"))
+    done(pendant, training._finish)
+    told = ", ".join(f"{v:.2f}" for v in truth.cell.T_base1_base2.position * 1e3).encode()
+    until(lambda: told in b"".join(tap.texts), "the score card")

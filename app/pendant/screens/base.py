@@ -10,6 +10,7 @@ from app.kinematics import load_robot, robot_names
 from app.pendant import html
 from app.pendant.scene.camera import look
 from app.pendant.screens._base import cards
+from app.pendant.screens._base.exam import Exam
 from app.pendant.screens._base.run import Run
 from app.session import SessionState
 from app.simulation.tracker_cell import TrackerCell, make_cell
@@ -80,7 +81,12 @@ class _View:
     def _open(self) -> None:
         pendant = self._pendant
         first, second = (str(robot.value) for robot in self._robots)
-        cell = make_cell(first, second, int(pendant.rng.integers(_SPREAD)))
+        self._opened(make_cell(first, second, int(pendant.rng.integers(_SPREAD))), None)
+        self._close_button.visible = True
+        pendant.say("info", pendant.t("base.opened"))
+
+    def _opened(self, cell: TrackerCell, exam: Exam | None) -> None:
+        pendant = self._pendant
         pendant.stage.make_room(True)
         self._run = Run(
             pendant.client.scene,
@@ -88,12 +94,12 @@ class _View:
             nests=bool(self._nests.value),
             pushed=bool(self._pushed.value),
             seed=int(pendant.rng.integers(_SPREAD)),
+            exam=exam,
         )
-        look(pendant.client.camera, _whole(cell))
+        look(pendant.client.camera, _whole(self._run.drawn))
         self._intro.visible = self._setup.visible = False
-        self._work.visible = self._close_button.visible = True
-        self._show()
-        pendant.say("info", pendant.t("base.opened"))
+        self._work.visible = True
+        self._finish(self._run)
 
     def _leave_cell(self) -> None:
         self._drop()
@@ -157,7 +163,7 @@ class _View:
 
     def _undo(self) -> None:
         if self._run is not None and self._run.relation is None:
-            self._run.wizard = self._run.wizard.undo()
+            self._run.undo()
             self._show()
 
     def _meet(self) -> None:
@@ -176,8 +182,8 @@ class _View:
         self._miss.visible = True
         run = self._run
         if run is not None:
-            run.drawing.label("miss", f"{miss} mm", meeting.tips.mean(axis=0) + np.array([0.0, 0.0, 0.12]))
-            middle = meeting.tips.mean(axis=0)
+            middle = run.drawn_tips().mean(axis=0)
+            run.drawing.label("miss", f"{miss} mm", middle + np.array([0.0, 0.0, 0.12]))
             look(self._pendant.client.camera, (middle + np.array([-0.7, -1.9, 0.9]), middle))
         self._pendant.say("good", t("base.met", miss=miss, predicted=predicted))
 
@@ -205,7 +211,10 @@ class _View:
         self._send.visible = run.relation is not None and run.relation.T_base1_base2 is not None
 
     def refresh(self, state: SessionState) -> None:
-        """The session is another wizard's: nothing here follows it."""
+        """The session is another wizard's: only an exercise with two robots is followed here."""
+        exam = Exam.of(self._pendant.session)
+        if exam is not None and self._run is None:
+            self._opened(exam.truth.cell, exam)
 
     def close(self) -> None:
         """The page goes: motions end and the cell is taken down."""

@@ -14,9 +14,10 @@ from app.geometry import Pose
 from app.geometry.circle import fit_axis
 from app.pendant.motion import move, pause
 from app.pendant.scene.tracker_cell import CellDrawing
+from app.pendant.screens._base.exam import Exam
 from app.simulation.tracker import Sight
 from app.simulation.tracker_cell import TrackerCell
-from app.simulation.tracker_meeting import Meeting, meet
+from app.simulation.tracker_meeting import Meeting, meet, pointer
 from app.simulation.tracker_procedure import WIDEST, senses
 
 _REST = 0.12  # seconds the arm stands at each point
@@ -32,18 +33,33 @@ class Run:
         nests: fixed points are part of the procedure.
         pushed: somebody pushes the tracker before robot 2, and tells nobody.
         seed: of the tracker's noise.
+        exam: where this is an exercise: its wizard, and a drawing that stands beside the truth.
     """
 
-    def __init__(self, scene: viser.SceneApi, cell: TrackerCell, *, nests: bool, pushed: bool, seed: int):
+    def __init__(
+        self,
+        scene: viser.SceneApi,
+        cell: TrackerCell,
+        *,
+        nests: bool,
+        pushed: bool,
+        seed: int,
+        exam: Exam | None = None,
+    ):
         self.cell = self.now = cell
-        self.wizard = BaseWizard(steps(2, nests))
+        self.exam = exam
+        self.drawn = cell if exam is None else exam.truth.drawn
+        self.wizard = BaseWizard(steps(2, nests)) if exam is None else exam.wizard
         self.bases: tuple[BaseCalibration, ...] = ()
         self.relation: Relation | None = None
         self.meeting: Meeting | None = None
-        self.drawing = CellDrawing(scene, cell)
-        self._pushed, self._rng = pushed, np.random.default_rng(seed)
+        self.drawing = CellDrawing(scene, self.drawn)
+        self._push = (_PUSH if pushed else None) if exam is None else exam.truth.pushed
+        self._rng = np.random.default_rng(seed)
         self.postures = [arm.rest.copy() for arm in cell.arms]
-        self._stations = [cell.tracker.T_world_tracker] * 2
+        self._stations = [self.drawn.tracker.T_world_tracker] * 2
+        if self.wizard.step is None or self.wizard.step.robot == 2:  # taken up again where it was left
+            self._second_robot()
 
     # What the arms and the beam do ------------------------------------------------------------------------
 
@@ -56,8 +72,8 @@ class Run:
     def aim(self, arm: int) -> Sight:
         """The beam on the reflector of an arm, without measuring."""
         sight = self.now.look(arm, (self.postures[0], self.postures[1]), None)
-        flange = self.now.arms[arm].flange(self.postures[arm])
-        self.drawing.beam(flange.apply(self.now.arms[arm].reflector), sight.seen)
+        flange = self.drawn.arms[arm].flange(self.postures[arm])
+        self.drawing.beam(flange.apply(self.drawn.arms[arm].reflector), sight.seen)
         return sight
 
     def turn_to(self, angle: float) -> Sight:
@@ -81,16 +97,30 @@ class Run:
         if step.kind == NESTS:
             number = len(self.wizard.of(step.key)) % len(self.now.nests)
             sight = self.now.nest(number, self._rng)
-            self.drawing.beam(self.now.nests[number], sight.seen)
+            self.drawing.beam(self.drawn.nests[number], sight.seen)
             if sight.point is not None:
-                self.wizard = self.wizard.record(sight.point, name=f"N{number + 1}", sigma=sight.sigma)
+                self._record(sight.point, 0.0, f"N{number + 1}", sight.sigma)
             return sight
         sight = self.now.look(arm, (self.postures[0], self.postures[1]), self._rng)
         if sight.point is not None:
             angle = float(self.postures[arm][step.axis - 1]) if step.kind == TURN else 0.0
-            self.wizard = self.wizard.record(sight.point, angle=angle, sigma=sight.sigma)
+            self._record(sight.point, angle, "", sight.sigma)
             self._draw_points(step)
         return sight
+
+    def _record(self, point: np.ndarray, angle: float, name: str, sigma: float) -> None:
+        if self.exam is not None:
+            self.wizard = self.exam.record(point, angle, name, sigma)
+        else:
+            self.wizard = self.wizard.record(point, angle=angle, name=name, sigma=sigma)
+
+    def undo(self) -> None:
+        """Takes the last point back.
+
+        Raises:
+            ActionRefusedError: there is none.
+        """
+        self.wizard = self.wizard.undo() if self.exam is None else self.exam.undo()
 
     def by_itself(self, every: float, told: Callable[[], None]) -> Iterator[None]:
         """The step at hand, measured and left; `told` is called after every point.
@@ -128,16 +158,21 @@ class Run:
             ActionRefusedError: it has too few points.
         """
         step = self._step()
-        self.wizard = self.wizard.advance()
+        self.wizard = self.wizard.advance() if self.exam is None else self.exam.advance()
         if step.kind == TURN:
             self._draw_circle(step)
         after = self.wizard.step
         if after is not None and after.robot == 2 and step.robot == 1:
-            if self._pushed:
-                self.now = self.cell.moved(_PUSH)
-                self.drawing.cell = self.now
-                self.drawing.stand(self.now.tracker.T_world_tracker)
-            self._stations[1] = self.now.tracker.T_world_tracker
+            self._second_robot()
+
+    def _second_robot(self) -> None:
+        """The tracker looks at robot 2 from now on: somebody may have pushed it."""
+        if self._push is not None:
+            self.now = self.cell.moved(self._push)
+            self.drawn = self.drawn.moved(self._push)
+            self.drawing.cell = self.drawn
+            self.drawing.stand(self.drawn.tracker.T_world_tracker)
+        self._stations[1] = self.drawn.tracker.T_world_tracker
 
     def solve(self) -> Relation | None:
         """Bases and relation, drawn.
@@ -172,6 +207,11 @@ class Run:
         yield from move(np.zeros(1), np.full(1, 1.0), show)
         self.meeting = meeting
         done(meeting)
+
+    def drawn_tips(self) -> np.ndarray:
+        """(2, 3) where both tips are drawn [m]."""
+        pairs = zip(self.drawn.arms, self.postures, strict=True)
+        return np.array([arm.flange(q).apply(pointer(arm)) for arm, q in pairs])
 
     # Drawing ----------------------------------------------------------------------------------------------
 
