@@ -10,7 +10,7 @@ import numpy as np
 
 from app.diagnosis.static.curves import JOINT_CURVE, joint_curve_place, shape_functions
 from app.diagnosis.static.fit import Fitted, Term
-from app.diagnosis.static.outsiders import COMBINED, MARGIN, outsider_advantage
+from app.diagnosis.static.outsiders import COMBINED, FAMILIES, MARGIN, best_outsider, outsider_advantage
 from app.diagnosis.static.shape import LEVEL, SHARE, curve_p_value, dominant, law_gain
 
 #: Effect -> family of laws outside the library that could be taken for it.
@@ -20,6 +20,8 @@ _FAMILY = {
     "gear_eccentricity": "own_angle",
     "joint_compliance": "gravity_torque",
 }
+#: Family of outside laws -> the driver they are reported with, where the two differ.
+_DRIVERS = {"play": "approach", "product": "own_angle"}
 #: So many names on one joint are too many.
 CROWD = 3
 #: … unless one of them explains all but this share of what they explain together.
@@ -44,7 +46,25 @@ def doubt_of(fitted: Fitted) -> Doubt | None:
             worst, at = p_value, index
     if at is not None and "joint" in fitted.terms[at].where:
         return _doubt(fitted.terms[at])
-    return _crowded(fitted, named) or _rivalled(fitted, named)
+    return _crowded(fitted, named) or _rivalled(fitted, named) or _one_for_many(fitted, named)
+
+
+def _one_for_many(fitted: Fitted, named: list[int]) -> Doubt | None:
+    """Several names, on one joint or all together, that a single law outside the library does at least as well as.
+
+    One law without a name is likelier than two or three with one that happen to add up to it.
+    """
+    joints = sorted({int(fitted.terms[i].where["joint"]) for i in named if "joint" in fitted.terms[i].where})
+    groups = [[i for i in named if fitted.terms[i].where.get("joint") == joint] for joint in joints]
+    places = [(j, f) for j in range(1, fitted.recording.situation.joint_count + 1) for f in FAMILIES]
+    for group in (named, *(g for g in groups if g != named)):
+        if len(group) < 2:
+            continue
+        advantage, at = best_outsider(fitted, group, places)
+        if at is not None and advantage > 0.0 and not _slight(fitted, group, advantage):
+            driver = _DRIVERS.get(at[1], at[1])
+            return Doubt({"joint": at[0], "driver": driver}, _curve(driver))
+    return None
 
 
 def _crowded(fitted: Fitted, named: list[int]) -> Doubt | None:
