@@ -14,6 +14,7 @@ repeats.py            a trajectory that runs again: noise without physics
 corrections.py        what is undone in the samples and looked at again
 uncertainty.py        spreads where structure is left
 commands.py           the lag between command and answer
+next_motion.py        what to record next
 judged.py             learnt on one run, judged on others
 exact.py              refit with the exact laws
 names.py              what may be named, what is left over

@@ -10,6 +10,7 @@ from app.diagnosis.model import ModelEffect, SavedModel
 from app.diagnosis.motion.alternatives import alternatives_of
 from app.diagnosis.motion.commands import lag_findings
 from app.diagnosis.motion.errors import ErrorTable
+from app.diagnosis.motion.next_motion import next_motion
 from app.diagnosis.motion.uncertainty import widening
 from app.diagnosis.result import Diagnosis, Evidence, Finding, Leftover, Noise, Parameter, Quality
 from app.kinematics import RobotModel
@@ -31,6 +32,7 @@ def build(study: Study, robot: RobotModel, file: str) -> Diagnosis:
     findings = [_finding(study, table, i, base + named, widened) for i in named]
     order = np.argsort([-judgement.gains[i] for i in named])
     findings = [*(findings[k] for k in order), *lag_findings(study.log)]
+    poses, advice = next_motion(study, robot, tuple(findings))
     after_residual = table.residual(base + named)
     usable = samples.usable
     after = Quality(_rms(after_residual, usable), table.heldout(base + named), "Nm")
@@ -79,8 +81,8 @@ def build(study: Study, robot: RobotModel, file: str) -> Diagnosis:
     return Diagnosis(
         file=file, kind="motion", robot=robot.name, samples=len(log.t), verdict=verdict, noise=noise,
         before=before, after=after, findings=tuple(findings),
-        outliers=tuple(int(r) for r in log.dropped), leftover=leftover, next_poses=(), seconds=0.0,
-        notes=_notes(study), model=model.to_dict(), evidence=evidence,
+        outliers=tuple(int(r) for r in log.dropped), leftover=leftover, next_poses=poses, seconds=0.0,
+        notes=(*_notes(study), *advice), model=model.to_dict(), evidence=evidence,
     )  # fmt: skip
 
 
