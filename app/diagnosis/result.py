@@ -73,6 +73,7 @@ class Finding:
         alternatives: other explanations this recording cannot rule out.
         sentence: what an operator reads.
         equation: the law.
+        heldout_unit: of both held-out errors, where it is not the diagnosis's own.
     """
 
     effect: str
@@ -85,6 +86,7 @@ class Finding:
     alternatives: tuple[Alternative, ...]
     sentence: str
     equation: str
+    heldout_unit: str = ""
 
 
 @dataclass(frozen=True)

@@ -47,7 +47,7 @@ def lags(log: Log) -> list[Lag]:
     return [lag for lag in found if lag is not None]
 
 
-def lag_findings(log: Log) -> tuple[Finding, ...]:
+def lag_findings(log: Log, sliding: np.ndarray) -> tuple[Finding, ...]:
     """As findings: `delay` of a joint against its command."""
     return tuple(
         Finding(
@@ -61,9 +61,11 @@ def lag_findings(log: Log) -> tuple[Finding, ...]:
             alternatives=(),
             sentence=(
                 f"Joint {lag.joint + 1} answers its command {lag.seconds:.4g} s late: the commanded position, that "
-                f"much later, misses the measured one by {lag.with_it:.2g} instead of {lag.without:.2g} (rad or m)."
+                f"much later, misses the measured one by {lag.with_it:.2g} instead of {lag.without:.2g} "
+                f"{'m' if sliding[lag.joint] else 'rad'}."
             ),
             equation="q(t) = q_commanded(t - delay)",
+            heldout_unit="m" if sliding[lag.joint] else "rad",
         )
         for lag in lags(log)
     )

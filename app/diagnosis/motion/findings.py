@@ -11,6 +11,7 @@ from app.diagnosis.motion.alternatives import alternatives_of
 from app.diagnosis.motion.commands import lag_findings
 from app.diagnosis.motion.errors import ErrorTable
 from app.diagnosis.motion.next_motion import next_motion
+from app.diagnosis.motion.sampling import Samples
 from app.diagnosis.motion.uncertainty import widening
 from app.diagnosis.result import Diagnosis, Evidence, Finding, Leftover, Noise, Parameter, Quality
 from app.kinematics import RobotModel
@@ -31,12 +32,11 @@ def build(study: Study, robot: RobotModel, file: str) -> Diagnosis:
     widened = widening(study.system, fit.solution, study.prior)
     findings = [_finding(study, table, i, base + named, widened) for i in named]
     order = np.argsort([-judgement.gains[i] for i in named])
-    findings = [*(findings[k] for k in order), *lag_findings(study.log)]
+    findings = [*(findings[k] for k in order), *lag_findings(study.log, samples.state.sliding)]
     poses, advice = next_motion(study, robot, tuple(findings))
     after_residual = table.residual(base + named)
-    usable = samples.usable
-    after = Quality(_rms(after_residual, usable), table.heldout(base + named), "Nm")
-    before = Quality(_rms(study.before_residual, usable), study.before_heldout, "Nm")
+    after = _quality(samples, after_residual, table.heldout(base + named))
+    before = _quality(samples, study.before_residual, study.before_heldout)
     leftover = Leftover(judgement.leftover_p, judgement.leftover_where)
     structure = judgement.leftover_p <= 0.01 or not all(judgement.named[study.known :])
     if findings:
@@ -67,7 +67,7 @@ def build(study: Study, robot: RobotModel, file: str) -> Diagnosis:
     evidence = Evidence(
         rows=log.rows[samples.centre], measured=measured, before=study.before_residual, after=after_residual,
         components=tuple(f"joint {j + 1}" for j in range(n)), unit="Nm", q=samples.pool(state.q),
-        drivers=drivers, kept=np.asarray(usable.any(axis=1)),
+        drivers=drivers, kept=np.asarray(samples.usable.any(axis=1)),
     )  # fmt: skip
     model = SavedModel(
         "motion",
@@ -112,16 +112,23 @@ def _finding(study: Study, table: ErrorTable, index: int, named: list[int], wide
         parameters=parameters,
         visible=term.visible,
         p_value=study.judgement.p_values[index],
-        heldout_rms_without=table.heldout(others),
-        heldout_rms_with=table.heldout(named),
+        heldout_rms_without=_a_sample(study.samples, table.heldout(others)),
+        heldout_rms_with=_a_sample(study.samples, table.heldout(named)),
         alternatives=alternatives_of(study, index),
         sentence=law.explain(where, values),
         equation=law.equation,
     )
 
 
-def _rms(residual: np.ndarray, usable: np.ndarray) -> float:
-    return float(np.sqrt(np.mean(residual[usable] ** 2))) if usable.any() else float("nan")
+def _quality(samples: Samples, residual: np.ndarray, heldout: float) -> Quality:
+    """Errors of one sample as it was recorded, not of a window's mean."""
+    usable = samples.usable
+    fitted = float(np.sqrt(np.mean(residual[usable] ** 2))) if usable.any() else float("nan")
+    return Quality(_a_sample(samples, fitted), _a_sample(samples, heldout), "Nm")
+
+
+def _a_sample(samples: Samples, rms: float) -> float:
+    return float(np.sqrt(rms**2 + np.mean(samples.within)))
 
 
 def _notes(study: Study) -> tuple[str, ...]:

@@ -51,6 +51,7 @@ class Samples:
         runs: slices of windows without a gap.
         centre: (M,) the log's sample in the middle of each window.
         step: time between windows [s].
+        within: (n,) mean square [Nm^2] of the torque about its window's mean, the description's own change taken off.
         repeat: windows until the same trajectory runs again, 0 where it does not.
     """
 
@@ -67,6 +68,7 @@ class Samples:
     step: float
     smoothing: Smoothing
     thinned: bool
+    within: np.ndarray
     repeat: int
 
     @property
@@ -144,14 +146,27 @@ def take_samples(
         speed=np.quantile(np.abs(qd), 0.9, axis=0), seconds=float(log.t[-1] - log.t[0]),
         sliding=np.array([joint.prismatic for joint in robot.joints]),
     )  # fmt: skip
-    measured = _pooled(torque[(first[:, None] + np.arange(window)).reshape(-1)], window)
+    every = (first[:, None] + np.arange(window)).reshape(-1)
+    measured = _pooled(torque[every], window)
     turning = 0.5 * (window - 1) * log.step * np.abs(_pooled(qdd, points))
     return Samples(
         state, window, points, middle, measured - _pooled(rigid, points), regressor,
         _usable(state, smoothing, measured, np.abs(_pooled(qd, points)), turning, runs),
         _blocks(count), runs, first + window // 2, wide, smoothing, thinned,
+        _within(torque[every], log.t[every] - log.t[0], middle, _pooled(rigid, points), window),
         repeat_of(_pooled(q, points), runs),
     )  # fmt: skip
+
+
+def _within(
+    torque: np.ndarray, t: np.ndarray, middle: np.ndarray, rigid: np.ndarray, window: int
+) -> np.ndarray:
+    """(n,) mean square of what averaging took away: torque (M w, n) at t, the description's (M, n) at middle."""
+    if window == 1:
+        return np.zeros(torque.shape[1])
+    own = torque - np.stack([np.interp(t, middle, column) for column in rigid.T], axis=1)
+    own = own.reshape(-1, window, own.shape[1])
+    return np.mean((own - own.mean(axis=1, keepdims=True)) ** 2, axis=(0, 1))
 
 
 def _windows(log: Log) -> tuple[np.ndarray, int, list[slice], bool]:

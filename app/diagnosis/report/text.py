@@ -83,6 +83,7 @@ def _judged(judged: Judged) -> list[str]:
 
 
 def _finding(number: int, f: Finding, unit: str) -> list[str]:
+    unit = f.heldout_unit or unit
     lines = _wrapped(f"{number}. {effect_title(f.effect)} · {place(f.where)}", indent=3)
     lines += _wrapped(f"   {f.sentence}", indent=3)
     for parameter in f.parameters:

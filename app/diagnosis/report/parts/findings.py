@@ -30,7 +30,9 @@ def _overview(found: Sequence[Finding], unit: str) -> str:
             effect_title(f.effect),
             place(f.where),
             quantity(f.parameters[0]) if f.parameters else "",
-            digits(f.heldout_rms_without),
+            measure(f.heldout_rms_without, f.heldout_unit)
+            if f.heldout_unit
+            else digits(f.heldout_rms_without),
         )
         for n, f in enumerate(found, 1)
     ]
@@ -38,6 +40,7 @@ def _overview(found: Sequence[Finding], unit: str) -> str:
 
 
 def _card(number: int, f: Finding, unit: str) -> str:
+    unit = f.heldout_unit or unit
     values = "".join(
         f"<dt>{escape(p.name.replace('_', ' '))}</dt><dd><b>{escape(quantity(p))}</b></dd>"
         for p in f.parameters

@@ -153,6 +153,7 @@ def findings(pendant: Pendant, diagnosis: Diagnosis) -> str:
 
 
 def _card(pendant: Pendant, number: int, f: Finding, unit: str) -> str:
+    unit = f.heldout_unit or unit
     t, language = pendant.t, pendant.language
     rows = [(parameter_name(p.name, language), quantity(p)) for p in f.parameters]
     rows += [

@@ -106,7 +106,7 @@ def law_of(key: str):
 
 def drive_torques(cell: Motion, terms: Sequence[Term]) -> np.ndarray:
     """(m, n) torque recorded without noise [Nm]."""
-    late = sum(t.parameters["delay"] for t in terms if t.effect == "delay")
+    late = sum(t.parameters["delay"] for t in terms if t.effect == "delay" and "joint" not in t.where)
     if late:
         cell = cell.later(late)
     n = cell.arm.n

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from app.proof.generator.arm import Arm
+from app.proof.generator.effects.motion.delay import answered_late
 from app.proof.generator.effects.term import Request, Term, draw_term
 from app.proof.generator.motion.cell import (
     Motion,
@@ -67,6 +68,7 @@ class MadeMotion:
         sigma: (n,) noise [Nm].
         q, qd: as recorded; torque: as recorded [Nm].
         gains: (n,) [Nm/A].
+        commanded: (m, n) positions that were asked for, or None where the log does not have them.
     """
 
     plan: MotionPlan
@@ -80,6 +82,7 @@ class MadeMotion:
     torque: np.ndarray
     temperature: np.ndarray
     gains: np.ndarray
+    commanded: np.ndarray | None = None
 
 
 def make_motion(
@@ -122,6 +125,8 @@ def make_motion(
     raw = [np.sqrt(np.mean(effect_on_torques(cell, both, term) ** 2, axis=0)) for term in terms]
     noise = draw_noise(rng, (m, n), 1.0, plan.noise_kind) * sigma
     gains = np.round(rng.uniform(*GAIN, n), 3)
+    late = answered_late(terms, n)
+    asked = [path(cell.t + s)[0][:, j] for j, s in enumerate(late)] if late.any() else []
     warm = 25.0 + 12.0 * (1.0 - np.exp(-cell.t / (0.4 * seconds)))
     return MadeMotion(
         plan=plan,
@@ -135,6 +140,7 @@ def make_motion(
         torque=torque + noise,
         temperature=warm[:, None] + rng.normal(0, 0.05, (m, n)),
         gains=gains,
+        commanded=np.stack(asked, axis=1) if asked else None,
     )
 
 

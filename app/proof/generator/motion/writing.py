@@ -19,6 +19,8 @@ def write_motion(made: MadeMotion, path: Path, robot: str) -> None:
         header["noise_Nm"] = "[" + ", ".join(f"{s:.5g}" for s in made.sigma) + "]"
     columns = {"t_s": [f"{t:.6f}" for t in cell.t]}
     columns |= joint_columns(cell.arm.slides, made.q, "q", 7)
+    if made.commanded is not None:
+        columns |= joint_columns(cell.arm.slides, made.commanded, "qc", 7)
     if plan.speeds:
         for j, values in enumerate(made.qd.T):
             unit = "m_s" if cell.arm.slides[j] else "rad_s"
