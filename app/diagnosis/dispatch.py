@@ -123,7 +123,16 @@ def _diagnosed(
             expected=f"a model of kind {family(kind)}",
         )
     engine = importlib.import_module(ENGINES[kind])
-    found: Diagnosis = engine.diagnose(table, arm, progress=progress, seed=seed, model=model, **extra)
+    table = replace(table, keys={**table.keys, "kind": kind})
+    if family(kind) == "static":
+        from app.diagnosis.doubts import check_arm, check_units, doubted
+
+        check_units(table, arm)
+        check_arm(table, arm)
+        found: Diagnosis = engine.diagnose(table, arm, progress=progress, seed=seed, model=model)
+        found = doubted(found, arm)
+    else:
+        found = engine.diagnose(table, arm, progress=progress, seed=seed, model=model, **extra)
     found = replace(found, file=str(table.path), kind=kind, notes=(*noted, *found.notes))
     if model is None:
         return found

@@ -115,6 +115,14 @@ def check_units(
             if np.std(a) > 0.02:
                 notes.append(f"the recorded speed of joint {j + 1} stands still while it moves; not used")
                 return None
+            if np.ptp(q[:, j]) == 0.0 and np.std(b) > 0.02:
+                raise CellValueError(
+                    f"the position of joint {j + 1} is the same in every row while its recorded speed changes",
+                    file=table.path,
+                    row=int(rows[0]),
+                    column=table.columns[f"q{j + 1}"].name,
+                    expected="positions that follow the speed",
+                )
             continue
         ratio = float(np.sqrt(np.sum(b**2) / np.sum(a**2)))
         alike = float(np.sum(a * b) / np.sqrt(np.sum(a**2) * np.sum(b**2)))

@@ -70,6 +70,11 @@ def check_columns(
                 f"tau{a + 1}",
             )
         )
+    for a, other in [(a, other) for a in range(n) for other in ("degrees", "radians")]:
+        factor = DEG_PER_RAD if other == "radians" else 1.0 / DEG_PER_RAD
+        scaled = np.where(np.arange(n) == a, factor, 1.0)
+        what = f"the values of joint {a + 1} look like {other}"
+        trials.append((_left(robot, q * scaled, qd * scaled, qdd * scaled, tau), what, f"q{a + 1}"))
     trials.append((_left(robot, q, qd, qdd, -tau), "all torques look turned round", "tau1"))
     for factor, what in (
         (1 / DEG_PER_RAD, "degrees marked as radians?"),

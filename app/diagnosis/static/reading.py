@@ -17,6 +17,7 @@ from app.recordings import Table
 from app.units import from_deg, from_mm
 
 LEAST_ROWS = 6
+_FINE = from_mm(0.02)  # digits finer than this hardly repeat by chance, not in three coordinates at once
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,7 +49,7 @@ def read_static(table: Table, robot: RobotModel) -> StaticRecording:
     if time is not None and np.any(np.diff(time) < 0):
         notes.append("t_s runs backwards in places; the rows are taken in the order of the file")
     pose = _poses(table, q, session)
-    keep = _distinct(q, measured, time, notes)
+    keep = _distinct(q, measured, time, _length_resolution(table, measured), notes)
     for mask, text in _useless(measured, session):
         if (mask & keep).any():
             notes.append(text.format(count=int((mask & keep).sum())))
@@ -196,8 +197,13 @@ def _poses(table: Table, q: np.ndarray, session: np.ndarray) -> np.ndarray:
     return np.unique(np.column_stack([q, session]), axis=0, return_inverse=True)[1].reshape(-1)
 
 
-def _distinct(q: np.ndarray, measured: _Measured, time: np.ndarray | None, notes: list[str]) -> np.ndarray:
-    """Rows that say something a row before did not: exact copies are no second measurement."""
+def _distinct(
+    q: np.ndarray, measured: _Measured, time: np.ndarray | None, digits: float, notes: list[str]
+) -> np.ndarray:
+    """Rows that say something a row before did not: exact copies are no second measurement, whatever their time.
+
+    Where a file's measured digits are coarse, two measurements may well read alike: there only copies in time count.
+    """
     parts = [q]
     if measured.mode == "targets":
         parts.append(measured.target[:, None])  # type: ignore[index]
@@ -205,7 +211,7 @@ def _distinct(q: np.ndarray, measured: _Measured, time: np.ndarray | None, notes
         parts.append(np.nan_to_num(measured.points.reshape(len(q), -1), nan=-1e9))
     if measured.lengths is not None:
         parts.append(np.nan_to_num(measured.lengths[:, None], nan=-1e9))
-    if time is not None:
+    if time is not None and digits > _FINE:
         parts.append(time[:, None])
     _, first = np.unique(np.concatenate(parts, axis=1), axis=0, return_index=True)
     keep = np.zeros(len(q), bool)

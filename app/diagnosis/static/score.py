@@ -18,6 +18,7 @@ from app.diagnosis.static.scan import scan_all, with_row
 #: Share of a candidate's column that must survive the projection for it to be scored.
 VISIBLE = 0.01
 _UNDERFLOW = 1e-280
+_NOTHING = np.finfo(float).tiny  # a few touches may leave a flipped residual that is fitted exactly
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,7 +45,7 @@ def basis(jacobian: np.ndarray) -> Basis:
 
 def significance(gain: np.ndarray, rss: np.ndarray | float, d: int, dof: int) -> np.ndarray:
     """-log10 p of the F test that `d` columns took `gain` off `rss` by chance; dof of the residual before."""
-    x = np.clip(1.0 - np.asarray(gain) / rss, 1e-300, 1.0)
+    x = np.clip(1.0 - np.asarray(gain) / np.maximum(rss, _NOTHING), 1e-300, 1.0)
     a, b = 0.5 * max(dof - d, 1), 0.5 * d
     p = special.betainc(a, b, x)
     tail = a * np.log(x) + (b - 1.0) * np.log(np.maximum(1.0 - x, 1e-300)) - np.log(a) - special.betaln(a, b)
