@@ -2,173 +2,185 @@
 
 from __future__ import annotations
 
+import unicodedata
+
 import numpy as np
 
 from app.calibration.captures import of_role, stack
 from app.calibration.next_touch import propose
 from app.calibration.quality.region import ellipsoid, half_widths
-from app.calibration.result import ToolCalibration
 from app.calibration.solving import Solved
+from app.calibration.tool import METHODS
+from app.calibration.wording import FALLBACK, TEXTS, Phrase, name_of, phrase
 from app.errors import DegenerateGeometryError
 from app.geometry import CONVENTIONS
 from app.units import deg, mm
 
-_METHODS = {
-    "joint": "joint fit of tool point and touched point (order-free)",
-    "pairwise": "neighbouring differences (Xiong 2012, eqs. 6-9; depends on the order)",
-    "robust": "joint fit, far-off touches count less (none is dropped)",
-}
-_ORIENTATIONS = {
-    "default": "the flange's own axes",
-    "z": "Z by a stroke, X the flange's made square",
-    "zx": "X by a stroke, Z by a stroke made square (eqs. 15-18)",
-    "xy": "X by a stroke, Y by a stroke made square",
-}
 
-
-def page(solved: Solved) -> str:
+def page(solved: Solved, language: str = FALLBACK) -> str:
     """Everything about one file, for a person at a terminal."""
-    result = solved.result
-    blocks = [_head(solved), _point(result), _axes(result)]
-    if len(result.residual_vectors):
-        blocks += [_touches(solved), _figures(result)]
-    blocks += [_rounding(solved), _verdict(solved), _next_touch(solved)]
-    return "\n\n".join("\n".join(block) for block in blocks if block)
+    return _Page(solved, language).text()
 
 
-def _head(solved: Solved) -> list[str]:
-    result, points = solved.result, solved.points
-    lines = [f"{points.path.name}: {len(points.captures)} points, {len(result.residual_vectors)} touches"]
-    if points.title:
-        lines.append(points.title)
-    if points.note:
-        lines.append("note: " + points.note)
-    lines.append("position: " + _METHODS.get(result.method, result.method))
-    lines.append("axes: " + _ORIENTATIONS.get(result.orientation, result.orientation))
-    return lines
+class _Page:
+    def __init__(self, solved: Solved, language: str):
+        self._solved, self._result, self._points = solved, solved.result, solved.points
+        self._language = language
 
+    def _t(self, key: str, **fields: object) -> str:
+        return phrase(f"page.{key}", **fields).text(self._language)
 
-def _point(result: ToolCalibration) -> list[str]:
-    point, sigma, half = mm(result.tool_point), mm(result.sigma_tool), mm(half_widths(result))
-    lines = ["tool point in the flange [mm]   value   std error   95% interval"]
-    for axis, value, error, width in zip("xyz", point, sigma, half, strict=True):
-        lines.append(f"  {axis}                      {value:>12.4f} {error:>10.3f}   ± {width:.3f}")
-    if result.dof > 0:
-        region = ellipsoid(result)
-        long = ", ".join(f"{v:.2f}" for v in region.directions[:, 0])
-        sizes = " x ".join(f"{v:.2f}" for v in mm(region.semi_axes))
-        lines.append(f"  95% region: half axes {sizes} mm, the longest along ({long}) of the flange")
-    return lines
+    def text(self) -> str:
+        """All blocks, an empty line between them."""
+        blocks = [self._head(), self._point(), self._axes()]
+        if len(self._result.residual_vectors):
+            blocks += [self._touches(), self._figures()]
+        blocks += [self._rounding(), self._verdict(), self._next_touch()]
+        return "\n\n".join("\n".join(block) for block in blocks if block)
 
-
-def _axes(result: ToolCalibration) -> list[str]:
-    rotation = result.T_flange_tool.rotation
-    lines = ["R_flange_tool (columns: the tool's X, Y, Z in the flange)"]
-    lines += ["  " + " ".join(f"{v + 0.0:>9.5f}" for v in np.round(row, 9)) for row in rotation]
-    for form in CONVENTIONS.values():
-        numbers = form.from_rotation(rotation)
-        shown = deg(numbers) if form.angular else numbers
-        places, unit = (4, "deg") if form.angular else (6, "")
-        text = " ".join(f"{np.round(v, places) + 0.0:.{places}f}" for v in shown)
-        lines.append(f"  {form.key:<11}{text} {unit:<4} {', '.join(form.makers)}".rstrip())
-    for cone in result.cones:
-        known = f"known to ± {deg(cone.half_angle):.3f} deg (95% cone)"
-        lines.append(f"  {cone.axis.upper()} shown by a stroke of {mm(cone.stroke):.1f} mm: {known}")
-    return lines
-
-
-def _touches(solved: Solved) -> list[str]:
-    result = solved.result
-    left = {entry.index: entry for entry in solved.left_out}
-    weighted = result.method == "robust"
-    head = "touch   row  distance to the touched point [mm]"
-    head += "   without it the tool moves by   the others miss it by" if left else ""
-    lines = [head + ("   weight" if weighted else "")]
-    for i, distance in enumerate(mm(result.per_point)):
-        mark = "worst" if i == result.worst else ""
-        line = f"{i + 1:>5}{result.rows[i]:>6}{distance:>15.3f} {mark:<21}"
-        if left:
-            shown = f"{mm(left[i].shift):>16.3f}{mm(left[i].heldout):>29.3f}" if i in left else f"{'':>45}"
-            line += shown + " " * 10
-        lines.append((line + (f"{result.weights[i]:>9.2f}" if weighted else "")).rstrip())
-    return lines
-
-
-def _figures(result: ToolCalibration) -> list[str]:
-    return [
-        f"mean distance   {mm(result.mean):.4f} mm     (what makers show; it does not see geometry)",
-        f"max distance    {mm(result.max):.4f} mm     (touch {result.worst + 1})",
-        f"rms distance    {mm(result.rms):.4f} mm",
-        f"delta           {mm(result.delta):.5f} mm    (eq. 10: norm of the neighbouring differences)",
-        f"sigma           {mm(result.sigma):.4f} mm     (noise of one touch on one axis, "
-        f"{result.dof} degrees of freedom)",
-        f"condition       {result.condition:.4f}        (1 is best; above 10 tilt more, about two axes)",
-    ]
-
-
-def _rounding(solved: Solved) -> list[str]:
-    effect, result = solved.rounding, solved.result
-    if not len(result.residual_vectors):
-        return []
-    sigma = mm(effect.sigma_tool)
-    if sigma.max() < 5e-4:
-        lines = ["rounding: the written digits move the tool point by less than 0.001 mm"]
-    else:
-        text = ", ".join(f"{a} {v:.3f}" for a, v in zip("xyz", sigma, strict=True))
+    def _head(self) -> list[str]:
+        result, points, t = self._result, self._points, self._t
         lines = [
-            f"rounding: the written digits alone scatter the tool point by {text} mm (one standard deviation), "
-            f"mostly through {_list(effect.columns[:3])}"
-        ]
-        if result.sigma > 0:
-            share = effect.touch / result.sigma
-            whole = "all of" if share > 0.8 else f"{100 * min(share**2, 1):.0f}% of the variance of"
-            lines.append(
-                f"          a touch scatters by {mm(effect.touch):.3f} mm from rounding alone, "
-                f"found were {mm(result.sigma):.3f} mm: rounding explains {whole} the residual"
+            t(
+                "head",
+                file=points.path.name,
+                points=len(points.captures),
+                touches=len(result.residual_vectors),
             )
-    return lines + [gap.sentence() for gap in solved.gaps]
-
-
-def _verdict(solved: Solved) -> list[str]:
-    lines = [str(solved.light)]
-    return lines + [f"warning {warning.code}: {warning}" for warning in solved.result.warnings]
-
-
-def _next_touch(solved: Solved) -> list[str]:
-    """The touch that would help most, in the file's own convention."""
-    result, points = solved.result, solved.points
-    touches = of_role(points.captures, "touch")
-    if solved.light.colour == "green" or result.method not in _METHODS or not result.sigma > 0:
-        return []
-    rotations, _ = stack(touches)
-    try:
-        found = propose(
-            rotations,
-            tool=result.tool_point,
-            spike=result.p_base,
-            touches=len(touches) + 1,
-            noise=result.sigma,
-            robot=points.robot,
-            q_near=touches[-1].q,
-        )
-    except DegenerateGeometryError as error:
-        return [f"no next touch to propose: {error}"]
-    form = points.written.convention or CONVENTIONS["ZYX"]
-    numbers = form.from_rotation(found.T_base_flange.rotation)
-    names = [f"{n} {v:.1f}" for n, v in zip("xyz", mm(found.T_base_flange.position), strict=True)]
-    shown = deg(numbers) if form.angular else numbers
-    names += [f"{n} {v:.{1 if form.angular else 4}f}" for n, v in zip(form.columns, shown, strict=True)]
-    lines = [
-        f"best next touch: flange at {', '.join(names)} (mm, {'deg, ' if form.angular else ''}{form.key})"
-    ]
-    if found.q is not None and points.robot is not None:
-        joints = [
-            f"{mm(v):.1f} mm" if joint.prismatic else f"{deg(v):.1f} deg"
-            for v, joint in zip(found.q, points.robot.joints, strict=True)
         ]
-        lines.append("                 joints " + ", ".join(joints))
-    return [*lines, "                 " + found.sentence()]
+        if points.title:
+            lines.append(points.title)
+        if points.note:
+            lines.append(t("note", text=points.note))
+        lines.append(t("position", how=self._named("method", result.method)))
+        lines.append(t("axes", how=self._named("axes", result.orientation)))
+        return lines
+
+    def _named(self, family: str, key: str) -> str:
+        """What a method or an orientation is; a mode's own key where it has no text."""
+        name = f"{family}.{key}"
+        return phrase(name).text(self._language) if TEXTS.has(name) else key
+
+    def _point(self) -> list[str]:
+        result = self._result
+        point, sigma, half = mm(result.tool_point), mm(result.sigma_tool), mm(half_widths(result))
+        lines = [self._t("point_head")]
+        for axis, value, error, width in zip("xyz", point, sigma, half, strict=True):
+            lines.append(f"  {axis}                      {value:>12.4f} {error:>10.3f}   ± {width:.3f}")
+        if result.dof > 0:
+            region = ellipsoid(result)
+            long = ", ".join(f"{v:.2f}" for v in region.directions[:, 0])
+            sizes = " x ".join(f"{v:.2f}" for v in mm(region.semi_axes))
+            lines.append(self._t("region", sizes=sizes, along=long))
+        return lines
+
+    def _axes(self) -> list[str]:
+        rotation = self._result.T_flange_tool.rotation
+        lines = [self._t("rotation")]
+        lines += ["  " + " ".join(f"{v + 0.0:>9.5f}" for v in np.round(row, 9)) for row in rotation]
+        for form in CONVENTIONS.values():
+            numbers = form.from_rotation(rotation)
+            shown = deg(numbers) if form.angular else numbers
+            places, unit = (4, "deg") if form.angular else (6, "")
+            text = " ".join(f"{np.round(v, places) + 0.0:.{places}f}" for v in shown)
+            lines.append(f"  {form.key:<11}{text} {unit:<4} {', '.join(form.makers)}".rstrip())
+        for cone in self._result.cones:
+            fields = {"axis": cone.axis.upper(), "stroke": mm(cone.stroke)}
+            lines.append(self._t("cone", deg=float(deg(cone.half_angle)), **fields))
+        return lines
+
+    def _touches(self) -> list[str]:
+        result, t = self._result, self._t
+        left = {entry.index: entry for entry in self._solved.left_out}
+        weighted = result.method == "robust"
+        head = t("touch_head") + (t("touch_head_left") if left else "")
+        lines = [(head + (t("touch_head_weight") if weighted else "")).rstrip()]
+        for i, distance in enumerate(mm(result.per_point)):
+            mark = _padded(t("worst") if i == result.worst else "", 21)
+            line = f"{i + 1:>5}{result.rows[i]:>6}{distance:>15.3f} {mark}"
+            if left:
+                shown = (
+                    f"{mm(left[i].shift):>16.3f}{mm(left[i].heldout):>29.3f}" if i in left else f"{'':>45}"
+                )
+                line += shown + " " * 10
+            lines.append((line + (f"{result.weights[i]:>9.2f}" if weighted else "")).rstrip())
+        return lines
+
+    def _figures(self) -> list[str]:
+        result, t = self._result, self._t
+        return [
+            t("mean", value=mm(result.mean)),
+            t("max", value=mm(result.max), touch=result.worst + 1),
+            t("rms", value=mm(result.rms)),
+            t("delta", value=mm(result.delta)),
+            t("sigma", value=mm(result.sigma), dof=result.dof),
+            t("condition", value=result.condition),
+        ]
+
+    def _rounding(self) -> list[str]:
+        effect, result, t = self._solved.rounding, self._result, self._t
+        if not len(result.residual_vectors):
+            return []
+        sigma = mm(effect.sigma_tool)
+        if sigma.max() < 5e-4:
+            lines = [t("rounding_none")]
+        else:
+            text = ", ".join(f"{a} {v:.3f}" for a, v in zip("xyz", sigma, strict=True))
+            lines = [t("rounding", sigma=text, columns=_list(effect.columns[:3]))]
+            if result.sigma > 0:
+                share = effect.touch / result.sigma
+                fields = {"touch": mm(effect.touch), "found": mm(result.sigma)}
+                key = "rounding_all" if share > 0.8 else "rounding_part"
+                lines.append(t(key, share=100 * min(share**2, 1), **fields))
+        return lines + [gap.sentence(self._language) for gap in self._solved.gaps]
+
+    def _verdict(self) -> list[str]:
+        language = self._language
+        lines = [self._solved.light.said(language)]
+        for warning in self._result.warnings:
+            code = warning.code if language == FALLBACK else name_of(warning.code, language)
+            lines.append(self._t("warning", code=code, said=warning.said(language)))
+        return lines
+
+    def _next_touch(self) -> list[str]:
+        """The touch that would help most, in the file's own convention."""
+        result, points, t = self._result, self._points, self._t
+        touches = of_role(points.captures, "touch")
+        if self._solved.light.colour == "green" or result.method not in METHODS or not result.sigma > 0:
+            return []
+        rotations, _ = stack(touches)
+        try:
+            found = propose(
+                rotations,
+                tool=result.tool_point,
+                spike=result.p_base,
+                touches=len(touches) + 1,
+                noise=result.sigma,
+                robot=points.robot,
+                q_near=touches[-1].q,
+            )
+        except DegenerateGeometryError as error:
+            return [t("no_next", why=error.said if isinstance(error.said, Phrase) else str(error))]
+        form = points.written.convention or CONVENTIONS["ZYX"]
+        numbers = form.from_rotation(found.T_base_flange.rotation)
+        names = [f"{n} {v:.1f}" for n, v in zip("xyz", mm(found.T_base_flange.position), strict=True)]
+        shown = deg(numbers) if form.angular else numbers
+        names += [f"{n} {v:.{1 if form.angular else 4}f}" for n, v in zip(form.columns, shown, strict=True)]
+        lines = [t("next" if form.angular else "next_plain", numbers=", ".join(names), form=form.key)]
+        if found.q is not None and points.robot is not None:
+            joints = [
+                f"{mm(v):.1f} mm" if joint.prismatic else f"{deg(v):.1f} deg"
+                for v, joint in zip(found.q, points.robot.joints, strict=True)
+            ]
+            lines.append(t("next_joints", joints=", ".join(joints)))
+        return [*lines, t("next_brings", said=found.sentence(self._language))]
 
 
-def _list(names: tuple[str, ...]) -> str:
-    return names[0] if len(names) == 1 else ", ".join(names[:-1]) + " and " + names[-1]
+def _list(names: tuple[str, ...]) -> Phrase | str:
+    return names[0] if len(names) == 1 else phrase("page.and", several=", ".join(names[:-1]), last=names[-1])
+
+
+def _padded(text: str, width: int) -> str:
+    """Filled with blanks to a width in columns of a terminal, where Chinese characters take two."""
+    taken = sum(2 if unicodedata.east_asian_width(c) in "WF" else 1 for c in text)
+    return text + " " * max(width - taken, 0)

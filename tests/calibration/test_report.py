@@ -63,3 +63,15 @@ def test_the_command_line_writes_the_sheet_of_one_file(tmp_path, capsys):
     assert out.read_text(encoding="utf-8").startswith("<!doctype html>")
     assert run(["solve", str(TABLE_1), str(TABLE_1), "--report", str(out)]) == 2
     assert "one FILE" in capsys.readouterr().err
+
+
+def test_page_and_sheet_speak_chinese_when_asked_and_json_stays_english(tmp_path, capsys):
+    out = tmp_path / "sheet.html"
+    assert run(["solve", str(TABLE_1), "--language", "zh", "--report", str(out)]) == 0
+    page, sheet = capsys.readouterr().out, out.read_text(encoding="utf-8")
+    assert "法兰中的工具点" in page and "条件数" in page and "distance" not in page
+    assert '<html lang="zh">' in sheet and "审核" in sheet and "Checked by" not in sheet
+    assert run(["solve", str(TABLE_1), "--language", "zh", "--json"]) == 0
+    in_chinese = capsys.readouterr().out
+    assert run(["solve", str(TABLE_1), "--json"]) == 0
+    assert capsys.readouterr().out == in_chinese

@@ -30,6 +30,9 @@ class Command:
     json: bool = False
     """The object teachframe.tool/1 instead of the page."""
 
+    language: Literal["en", "zh"] = "en"
+    """Of the page and the report; JSON stays English."""
+
     report: Path | None = None
     """Writes a one-page report (HTML, prints well) of the one file given."""
 
@@ -67,11 +70,15 @@ class Command:
                 code = 2
                 continue
             if self.report is not None:
-                _write(self.report, report(solved, made=datetime.now().strftime("%Y-%m-%d %H:%M")))
+                _write(
+                    self.report,
+                    report(solved, made=datetime.now().strftime("%Y-%m-%d %H:%M"), language=self.language),
+                )
             if self.json:
                 print(msgspec.json.encode(to_json(solved.result)).decode(), flush=True)
             else:
-                print(("\n" + "=" * 100 + "\n\n" if number else "") + page(solved), flush=True)
+                text = page(solved, self.language)
+                print(("\n" + "=" * 100 + "\n\n" if number else "") + text, flush=True)
         return code
 
 

@@ -62,6 +62,29 @@ def test_every_sentence_the_code_asks_for_is_there():
     assert len(asked) > 50 and not missing
 
 
+@pytest.mark.parametrize(
+    "prefix, files",
+    [
+        ("page", ["text.py"]),
+        ("sheet", ["report/page.py", "report/pictures.py", "report/cell_picture.py"]),
+    ],
+)
+def test_every_sentence_the_pages_ask_for_is_there_and_none_is_left_over(prefix, files):
+    asked = set()
+    for file in files:
+        for node in ast.walk(ast.parse((CODE / file).read_text(encoding="utf-8"))):
+            if isinstance(node, ast.Constant) and isinstance(node.value, str):
+                asked.add(node.value.removeprefix(f"{prefix}."))
+    there = {key.partition(".")[2] for key in TEXTS.languages[FALLBACK] if key.startswith(f"{prefix}.")}
+    left_over = {key for key in there - asked if not key.startswith("column_")}
+    called = {
+        key
+        for file in files
+        for key in re.findall(r"(?:\bt|_t|words)\(\s*\"(\w+)\"", (CODE / file).read_text(encoding="utf-8"))
+    }
+    assert not left_over and not called - there
+
+
 @pytest.mark.parametrize("language", TEXTS.languages)
 def test_every_code_a_check_or_a_refusal_gives_has_a_name(language):
     made = [call.args[0] for _, call in calls("remark", "degenerate")]
