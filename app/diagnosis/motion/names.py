@@ -18,6 +18,8 @@ from app.diagnosis.motion.scoring import Board, minus_log_p, null_scores, score_
 from app.diagnosis.motion.search import LEVEL, Search, Term
 from app.diagnosis.motion.system import Group
 
+#: A curve that takes less than this share off a joint's noise is below what smoothing and averaging may leave.
+MATERIAL = 0.01
 SHADOW = 0.05  # share of a law's own gain that a free curve may add before the name is withheld
 BLUR = 0.03  # relative uncertainty of a ripple's order beyond which it is no period
 SWINGS = 1.5  # a ripple shows at least so many
@@ -62,7 +64,9 @@ def judge(search: Search, fit: ExactFit, stated: np.ndarray | None, done: dict[i
     bar = max(float(np.quantile(null, 1 - LEVEL)), np.log10(len(board) / LEVEL))
     best = int(np.argmax(board.score))
     p_value = float((1 + np.sum(null >= board.score[best])) / (1 + len(null)))
-    if board.score[best] < np.log10(len(board) / LEVEL):
+    rows = np.count_nonzero(search.system.whiteners[board[best].group.joint or 0].weight)
+    small = board.gain[best] - board.sizes[best] < MATERIAL * rows
+    if small or board.score[best] < np.log10(len(board) / LEVEL):
         p_value = max(p_value, 0.05)
     where = dict(board[best].group.where)
     remains = remains_of(search.system, fit.solution, stated)

@@ -149,24 +149,38 @@ def take_samples(
     every = (first[:, None] + np.arange(window)).reshape(-1)
     measured = _pooled(torque[every], window)
     turning = 0.5 * (window - 1) * log.step * np.abs(_pooled(qdd, points))
+    usable = _usable(state, smoothing, measured, np.abs(_pooled(qd, points)), turning, runs)
     return Samples(
         state, window, points, middle, measured - _pooled(rigid, points), regressor,
-        _usable(state, smoothing, measured, np.abs(_pooled(qd, points)), turning, runs),
-        _blocks(count), runs, first + window // 2, wide, smoothing, thinned,
-        _within(torque[every], log.t[every] - log.t[0], middle, _pooled(rigid, points), window),
+        usable, _blocks(count), runs, first + window // 2, wide, smoothing, thinned,
+        _within(torque[every], rigid, window, usable),
         repeat_of(_pooled(q, points), runs),
     )  # fmt: skip
 
 
-def _within(
-    torque: np.ndarray, t: np.ndarray, middle: np.ndarray, rigid: np.ndarray, window: int
-) -> np.ndarray:
-    """(n,) mean square of what averaging took away: torque (M w, n) at t, the description's (M, n) at middle."""
+def _within(torque: np.ndarray, rigid: np.ndarray, window: int, usable: np.ndarray) -> np.ndarray:
+    """(n,) mean square of the noise that averaging took away.
+
+    Args:
+        torque: (M w, n) measured.
+        rigid: (M 2, n) the description's at two points of each window.
+        usable: (M, n).
+    """
+    n = torque.shape[1]
     if window == 1:
-        return np.zeros(torque.shape[1])
-    own = torque - np.stack([np.interp(t, middle, column) for column in rigid.T], axis=1)
-    own = own.reshape(-1, window, own.shape[1])
-    return np.mean((own - own.mean(axis=1, keepdims=True)) ** 2, axis=(0, 1))
+        return np.zeros(n)
+    own = torque.reshape(-1, window, n)
+    own = own - own.mean(axis=1, keepdims=True)
+    line = np.arange(window) - 0.5 * (window - 1)
+    if window == 2:  # no noise is left beside a line through two samples: the description's own is taken
+        slope = rigid[1::2] - rigid[::2]
+        share = 1.0
+    else:
+        slope = np.einsum("k,mkn->mn", line, own) / (line @ line)
+        share = (window - 1) / (window - 2)
+    own = own - slope[:, None] * line[:, None]
+    squares = np.mean(own**2, axis=1) * share
+    return np.array([s[u].mean() if u.any() else 0.0 for s, u in zip(squares.T, usable.T, strict=True)])
 
 
 def _windows(log: Log) -> tuple[np.ndarray, int, list[slice], bool]:
