@@ -51,45 +51,51 @@ def rival_pairs(
     scores = score_all(fitted, lib, base, None, white)
     named, blocks = _columns(fitted, lib, scores, base)
     rss, n = float(rest @ rest), fitted.size
-    products = [block.T @ rest for block in blocks]
     size = np.array([block.shape[1] for block in blocks])
     starts = np.concatenate([[0], np.cumsum(size)]).astype(int)
     unit = np.concatenate(blocks, axis=1) if blocks else np.zeros((len(rest), 0))
     gram, right = unit.T @ unit, unit.T @ rest
-    out: list[Pair] = []
     taken = sum(len(fitted.terms[i].values) for i in indices)
     mine = n * np.log(fitted.rss / n) + taken * np.log(n)
-    for a, own in enumerate(products):
-        span = slice(starts[a], starts[a + 1])
-        cross = gram[:, span]  # (g, d)
-        left = right - cross @ own
-        gains = _second_gains(gram, cross, left, starts, size)
-        gains[: a + 1] = -np.inf  # every pair once
-        total = np.maximum(rss - float(own @ own) - gains, 1e-300)
-        delta = n * np.log(total / n) + (size[a] + size) * np.log(n) - mine
-        delta[~np.isfinite(gains)] = np.inf
-        best = [b for b in np.argsort(delta)[:most] if np.isfinite(delta[b])]
-        out += [Pair(named[a], named[b], float(delta[b])) for b in best]
-    return sorted(out, key=lambda pair: pair.delta)[:most]
+    gains = _together(gram, right, starts, size)
+    delta = n * np.log(np.maximum(rss - gains, 1e-300) / n) + (size[:, None] + size) * np.log(n) - mine
+    delta[~np.isfinite(gains)] = np.inf
+    best = np.argsort(delta, axis=None)[:most]
+    pairs = [(int(at) // len(size), int(at) % len(size)) for at in best]
+    return [Pair(named[a], named[b], float(delta[a, b])) for a, b in pairs if np.isfinite(delta[a, b])]
 
 
-def _second_gains(
-    gram: np.ndarray, cross: np.ndarray, left: np.ndarray, starts: np.ndarray, size: np.ndarray
-) -> np.ndarray:
-    """What every candidate adds once the first is in; minus infinity where the first leaves too little of it."""
-    out = np.full(len(size), -np.inf)
+def _together(gram: np.ndarray, right: np.ndarray, starts: np.ndarray, size: np.ndarray) -> np.ndarray:
+    """(g, g) what two candidates take off together, above the diagonal; minus infinity for those that are one."""
+    count = len(size)
+    out = np.full((count, count), -np.inf)
     one = np.flatnonzero(size == 1)
     at = starts[:-1][one]
-    share = 1.0 - np.einsum("gd,gd->g", cross[at], cross[at])
+    cross, own = gram[np.ix_(at, at)], right[at]
+    share = 1.0 - cross**2
     seen = share > _APART
-    out[one[seen]] = left[at[seen]] ** 2 / share[seen]
-    for index in np.flatnonzero(size > 1):
-        span = slice(starts[index], starts[index + 1])
-        kept = np.eye(size[index]) - cross[span] @ cross[span].T
-        values, vectors = np.linalg.eigh(kept)
-        good = values > _APART
-        if good.any():
-            out[index] = float(np.sum((vectors[:, good].T @ left[span]) ** 2 / values[good]))
+    second = (own[None, :] - cross * own[:, None]) ** 2 / np.where(seen, share, 1.0)
+    out[np.ix_(one, one)] = np.where(seen, own[:, None] ** 2 + second, -np.inf)
+    # Those of several columns are filled up with columns of nothing, so that all are of one size.
+    wide = int(size.max(initial=1))
+    index = np.full((count, wide), gram.shape[0])
+    for g in range(count):
+        index[g, : size[g]] = np.arange(starts[g], starts[g + 1])
+    padded = np.zeros((gram.shape[0] + 1,) * 2)
+    padded[:-1, :-1] = gram
+    values = np.append(right, 0.0)[index]  # (g, wide)
+    for a in np.flatnonzero(size > 1):
+        cross = padded[index[:, :, None], index[a]]  # (g, wide, wide)
+        left = values - cross @ values[a]
+        kept = np.eye(wide) - cross @ np.swapaxes(cross, 1, 2)
+        shares, axes = np.linalg.eigh(kept)
+        good = (shares > _APART) & (np.abs(left).max(axis=1, keepdims=True) > 0)
+        more = np.einsum("gij,gi->gj", axes, left) ** 2 / np.where(good, shares, 1.0)
+        gain = float(values[a] @ values[a]) + np.sum(np.where(good, more, 0.0), axis=1)
+        apart = (shares > _APART).sum(axis=1) > wide - size  # what was filled up does not count
+        out[a] = np.where(apart, gain, -np.inf)
+        out[:, a] = out[a]
+    out[np.tril_indices(count)] = -np.inf  # every pair once
     return out
 
 

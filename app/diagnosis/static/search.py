@@ -23,11 +23,12 @@ from app.diagnosis.static.noise import weights_from
 from app.diagnosis.static.scan import SCAN_ROWS, with_row
 from app.diagnosis.static.score import Scores, basis, family_wise, flips
 from app.diagnosis.static.serial import coloured_score, stretch, stretch_flips
-from app.diagnosis.static.settling import settle
+from app.diagnosis.static.settling import exchanged, settle
 
 #: A term is taken only where chance would do as well in at most this share of searches.
 LEVEL = 0.01
 MOST_TERMS = 6
+MOST_EXCHANGES = 3
 NULLS = 199
 _TRIES = 8  # candidates looked at before a round is given up
 _ALIKE = 0.05  # difference of -log10 p below which two candidates count as exactly alike
@@ -61,17 +62,25 @@ def forward(
     now, p_values = start, []
     null = np.zeros(0)
     signs = flips(rng, with_ghosts(start.recording.pose, start.ghosts), nulls)
-    for count in range(MOST_TERMS):
-        tick(count / MOST_TERMS, "looking for what is missing")
+    exchanges = 0
+    while len(p_values) < MOST_TERMS:
+        tick(len(p_values) / MOST_TERMS, "looking for what is missing")
         base = basis(now.jacobian)
         scores = score_all(now, library(now.columns, wanted, now.ghosts), base, signs)
         null = scores.null
         taken = _take(now, scores, level, lambda trial: serial_null(trial, wanted, rng, nulls))
         if taken is None:
-            break
+            # Pairs are looked at when there are two terms, and once more when nothing else is to be had.
+            other = exchanged(now, wanted) if exchanges < MOST_EXCHANGES else None
+            if other is None:
+                break
+            now, exchanges = settle(other, wanted), exchanges + 1
+            continue
         now, p_value = taken
         p_values.append(p_value)
         now = settle(refined(now), wanted)
+        if len(p_values) == 2:
+            now = exchanged(now, wanted) or now
     return Found(now, tuple(p_values), null)
 
 

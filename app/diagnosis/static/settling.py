@@ -18,8 +18,7 @@ EXCHANGE = 2.0
 
 
 def settle(now: Fitted, wanted: tuple[Candidate, ...], passes: int = 4) -> Fitted:
-    """Swaps each term for a better one at another place, and puts every step at its best row, until none moves;
-    then two terms for two others, and again."""
+    """Swaps each term for a better one at another place, and puts every step at its best row, until none moves."""
     if not [t for t in now.terms if not t.tacit]:
         return now
     for _ in range(passes):
@@ -31,10 +30,7 @@ def settle(now: Fitted, wanted: tuple[Candidate, ...], passes: int = 4) -> Fitte
             if better is not None:
                 now, changed = better, True
         if not changed:
-            other = _exchanged(now, wanted)
-            if other is None:
-                break
-            now = other
+            break
     return now
 
 
@@ -80,7 +76,7 @@ def _own_score(now: Fitted, index: int, base: Basis, white: np.ndarray) -> float
     return float(significance(np.array(gain), float(rest @ rest), block.shape[1], dof))
 
 
-def _exchanged(now: Fitted, wanted: tuple[Candidate, ...]) -> Fitted | None:
+def exchanged(now: Fitted, wanted: tuple[Candidate, ...]) -> Fitted | None:
     """Two terms changed for two others that explain clearly more together; None where none do."""
     named = [i for i, term in enumerate(now.terms) if not term.tacit]
     for pair in combinations(named, 2):
