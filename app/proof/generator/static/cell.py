@@ -16,6 +16,8 @@ from app.proof.generator.rotations import turn_vector
 
 LAWS = "app.proof.generator.effects.static"
 OUTSIDE = "app.proof.generator.effects.outside.static"
+_KEPT: dict[tuple, tuple[Arm, Stance]] = {}
+_MOST_KEPT = 4
 WRITTEN = "wrong_convention"  # of what is shown, not of what is there
 
 
@@ -176,8 +178,15 @@ def law_of(key: str):
 
 
 def true_stance(cell: Cell, world: World) -> Stance:
-    """Where the arm really is."""
-    return stance(cell.arm, world.flipped * cell.q + world.dq, world.shifts, world.turns)
+    """Where the arm really is; the last few are kept, as most of what deviates leaves the arm where it was."""
+    q = world.flipped * cell.q + world.dq
+    key = (id(cell.arm), q.tobytes(), world.shifts.tobytes(), world.turns.tobytes())
+    if key not in _KEPT:
+        if len(_KEPT) >= _MOST_KEPT:
+            _KEPT.pop(next(iter(_KEPT)))
+        # The arm is kept too: as long as it lives its id is no other's.
+        _KEPT[key] = cell.arm, stance(cell.arm, q, world.shifts, world.turns)
+    return _KEPT[key][1]
 
 
 def tips(cell: Cell, world: World, where: Stance | None = None) -> np.ndarray:
