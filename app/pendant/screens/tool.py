@@ -216,7 +216,8 @@ class _View:
         pendant = self.pendant
         state = pendant.do(action)
         title = self._words.mode(mode_named(state.mode))
-        pendant.say("info", pendant.t("message.mode", title=title, count=len(state.steps)))
+        key = "message.mode" if state.steps else "message.mode_direct"
+        pendant.say("info", pendant.t(key, title=title, count=len(state.steps)))
 
     # What is shown ---------------------------------------------------------------------------------------
 
@@ -253,7 +254,7 @@ class _View:
         self._name.visible = self._decide.visible = not taken
         self._again.visible = taken
         self._calculate.disabled = not state.captures and state.mode != DIRECT
-        self._folder.visible = not done or bool(state.steps)
+        self._folder.visible = bool(state.steps)
         for part in (self._direct, self._next_touch, self._verifying):
             part.refresh(state)
         if state.result is not None:

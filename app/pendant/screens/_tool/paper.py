@@ -85,5 +85,6 @@ def calculate(pendant: Pendant) -> None:
     state = pendant.do(Calculate())
     if state.result is not None:
         colour = state.result.light.colour
-        pendant.stage.view("result")
+        if len(state.result.result.residual_vectors):
+            pendant.stage.view("result")
         pendant.say(_LEVELS[colour], pendant.t(f"message.calculated_{colour}"))

@@ -44,8 +44,9 @@ def result_html(pendant: Pendant, solved: Solved) -> str:
 def _tool(pendant: Pendant, solved: Solved) -> str:
     t, result = pendant.t, solved.result
     point, sigma = mm(result.tool_point), mm(result.sigma_tool)
+    measured = bool(len(result.residual_vectors))
     rows = [
-        (axis, f"{value:.3f}", f"± {error:.3f}" if np.isfinite(error) else "?")
+        (axis, f"{value:.3f}", f"± {error:.3f}" if measured and np.isfinite(error) else "?")
         for axis, value, error in zip("xyz", point, sigma, strict=True)
     ]
     form = CONVENTIONS[pendant.convention]
