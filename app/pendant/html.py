@@ -91,16 +91,16 @@ def bar(inner: str, *, testid: str, top: bool, left: int, right: int, colour: st
     edge = "top:0" if top else "bottom:0"
     return (
         f'<div data-testid="{escape(testid)}" style="position:fixed;{edge};left:{left}px;right:{right}px;'
-        f"height:30px;display:flex;align-items:center;gap:16px;padding:0 14px;z-index:50;overflow:hidden;"
-        f"white-space:nowrap;font-size:12.5px;font-variant-numeric:tabular-nums;color:#f1f3f5;"
+        f"min-height:30px;display:flex;flex-wrap:wrap;align-items:center;gap:2px 14px;padding:3px 12px;z-index:50;"
+        f"line-height:1.35;font-size:12.5px;font-variant-numeric:tabular-nums;color:#f1f3f5;"
         f'background:{colour}">{inner}</div>'
     )
 
 
 def item(text: str, *, testid: str = "", strong: bool = False, colour: str = "", gives: bool = False) -> str:
-    """One entry of a line; the one that `gives` is cut short where the line is full."""
+    """One entry of a line; the one that `gives` breaks its words where the line is full, the others stay whole."""
     hook = f' data-testid="{escape(testid)}"' if testid else ""
     mark = lamp(colour, 10) if colour else ""
     weight = "font-weight:600;" if strong else ""
-    room = "min-width:0;" if gives else "flex:none;"
-    return f'<span{hook} style="{weight}{room}overflow:hidden;text-overflow:ellipsis">{mark}{escape(text)}</span>'
+    room = "min-width:0;" if gives else "flex:none;white-space:nowrap;"
+    return f'<span{hook} style="{weight}{room}">{mark}{escape(text)}</span>'

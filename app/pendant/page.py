@@ -63,6 +63,7 @@ class Page:
             numbers = getattr(view, "numbers", None)
             if numbers is not None:
                 numbers()
+        self._pendant.stage.follow()
         self._status()
 
     def close(self) -> None:
@@ -86,9 +87,13 @@ class Page:
         how = "stopped" if pendant.jogging.stopped else "moving" if moving else "standing"
         colour = {"stopped": "red", "moving": "yellow", "standing": "green"}[how]
         tool = state.tool
+        jogging = pendant.jogging
+        enabling = "enabled" if jogging.enabled else "locked"
         items = [
             html.item(t(f"status.{how}"), testid="status-state", colour=colour, strong=True),
-            *([html.item(t("status.enabled"), testid="status-enable")] if pendant.jogging.enabled else []),
+            html.item(t(f"status.{enabling}"), testid="status-enable"),
+            html.item(t("status.frame", name=t(f"jog.frame_{jogging.frame}")), testid="status-frame"),
+            html.item(f"{100 * jogging.override:.0f} %", testid="status-speed"),
             html.item(pendant.model.title, testid="status-robot", gives=True),
             html.item(
                 t("status.tool", name=tool.name) if tool else t("status.no_tool"), testid="status-tool"

@@ -10,7 +10,7 @@ import viser
 from app.calibration.verify import Verification
 from app.geometry import Pose
 from app.pendant.arm import ArmView
-from app.pendant.scene.camera import MORE_VIEWS, VIEWS, look
+from app.pendant.scene.camera import FOLLOWING, MORE_VIEWS, VIEWS, look
 from app.pendant.scene.cell import draw_cell
 from app.pendant.scene.ground import lay_floor, light_up
 from app.pendant.scene.handle import Dragged, Handle
@@ -21,11 +21,14 @@ from app.pendant.scene.region import Region
 from app.pendant.scene.residuals import Residuals
 from app.pendant.scene.tool_axes import ToolAxes
 from app.pendant.scene.trace import Trace
+from app.pendant.scene.user_axes import UserAxes
 from app.session import SessionState
 from app.session.state import accepted
 from app.simulation.world import World
+from app.units import from_mm
 
 _NUMBERS = itertools.count(1)
+_FOLLOW = from_mm(2.0)  # the tip moves this far before a near view moves with it
 _HANDLE = 0.13  # size of the handle, as a share of the reach
 
 
@@ -58,11 +61,14 @@ class Stage:
         self.axes = ToolAxes(self._scene, self.arm.flange_path)
         self.region = Region(self._scene, self.arm.flange_path)
         self.trace = Trace(self._scene)
+        self.user = UserAxes(self._scene)
         self.next_arm = NextArm(self._scene, world.robot)
         self.show_handle, self.show_marks, self.show_residuals = handle, True, True
         self.handle.visible = handle
         self._drawn: tuple[object, ...] = ()
         self._away = self._tracing = False
+        self._tip, self._eye = world.hand(world.robot.home).position, np.zeros(3)
+        self._followed: np.ndarray | None = None
         self.view("whole")
 
     def floor(self, dark: bool) -> None:
@@ -98,14 +104,27 @@ class Stage:
             self.refresh(state)
 
     def view(self, name: str) -> None:
-        """Looks from one of the named places."""
-        look(self._client.camera, {**VIEWS, **MORE_VIEWS}[name](self._world))
+        """Looks from one of the named places; a near one goes along with the tip."""
+        eye, centre = {**VIEWS, **MORE_VIEWS}[name](self._world)
+        self._followed = None
+        if name in FOLLOWING:
+            eye, centre = eye + self._tip - centre, self._tip
+            self._followed = self._tip
+        self._eye = eye - centre
+        look(self._client.camera, (eye, centre))
+
+    def follow(self) -> None:
+        """The near views keep the tip in their middle."""
+        if self._followed is not None and np.linalg.norm(self._tip - self._followed) > _FOLLOW:
+            self._followed = self._tip
+            look(self._client.camera, (self._tip + self._eye, self._tip))
 
     def pose(self, q: np.ndarray, world: World, hand: Pose) -> None:
         """The arm at q (n,), the handle where the controller reckons the tool, T_base_tool."""
         self.arm.set(q)
         if self._held is not None:
             self._held.pose(q, world)
+        self._tip = hand.position
         self.handle.place(hand)
         self.next_arm.arm_at(q)
 

@@ -6,7 +6,10 @@ from typing import TYPE_CHECKING, Any
 
 import viser
 
+from app.pendant import html
 from app.pendant.jogging import FRAMES, INCREMENTS, Jog
+from app.pendant.panels._jog.keys import Keys
+from app.pendant.panels._jog.user import UserFrame
 from app.session import SessionState
 
 if TYPE_CHECKING:
@@ -43,9 +46,13 @@ class _View:
         pendant.changed(step, "increment", lambda title: setattr(jogging, "increment", steps[title]))
         speed = gui.add_slider(t("jog.override"), 1, 100, 1, round(100 * jogging.override))
         pendant.changed(speed, "override", lambda value: setattr(jogging, "override", value / 100.0))
+        self._user = UserFrame(pendant)
+        self._user.show(jogging.frame == "user")
         self._folder = gui.add_folder(t("jog.hold"))
         self._buttons: list[Any] = []
         self._lay()
+        gui.add_html(html.paragraph(t("jog.keys"), faint=True, testid="keys"))
+        self._keys = Keys(pendant, self._stopped)
 
     def _lay(self) -> None:
         """A pair of buttons an axis; viser's buttons are as wide as the panel, so they stand below each other."""
@@ -69,7 +76,9 @@ class _View:
 
     def _choose(self, frame: str) -> None:
         self._pendant.jogging.frame = frame
+        self._user.show(frame == "user")
         self._lay()
+        self._pendant.page.numbers()
 
     def _enabled(self, on: bool) -> None:
         pendant = self._pendant
@@ -100,7 +109,7 @@ class _View:
         pass
 
     def close(self) -> None:
-        pass
+        self._keys.remove()
 
 
 class _Jog:

@@ -12,6 +12,7 @@ from app.simulation.world import World
 View = tuple[np.ndarray, np.ndarray]  # where the eye is, what it looks at [m]
 
 _NARROW = 0.8  # width over height from which on everything of interest is seen
+_CLOSE_UP = 0.16  # of the reach: from here a millimetre is seen
 _FIELD = 0.75  # vertical field of view [rad]: narrow, so that straight things look straight
 
 
@@ -32,13 +33,13 @@ def whole(world: World) -> View:
 def side(world: World) -> View:
     """Square from the side, at the height of the spike."""
     reach, _, left = _sizes(world)
-    return world.p_base_spike_drawn - 0.42 * reach * left, world.p_base_spike_drawn
+    return world.p_base_spike_drawn - _CLOSE_UP * reach * left, world.p_base_spike_drawn
 
 
 def front(world: World) -> View:
     """Square to the side view, from beyond the spike."""
     reach, ahead, _ = _sizes(world)
-    return world.p_base_spike_drawn + 0.42 * reach * ahead, world.p_base_spike_drawn
+    return world.p_base_spike_drawn + _CLOSE_UP * reach * ahead, world.p_base_spike_drawn
 
 
 def close(world: World) -> View:
@@ -59,6 +60,8 @@ def result(world: World) -> View:
 VIEWS: dict[str, Callable[[World], View]] = {"whole": whole, "side": side, "front": front, "close": close}
 #: Those that go near the tip.
 CLOSE_UPS = ("side", "front", "close")
+#: Those that keep the tip in their middle: two at right angles show in which direction it is off.
+FOLLOWING = ("side", "front")
 #: Views the program takes by itself.
 MORE_VIEWS = {"result": result}
 

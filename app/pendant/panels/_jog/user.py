@@ -1,0 +1,79 @@
+"""The user frame's folder: typed as numbers, or taught by three points the tool is brought to."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from app.geometry import CONVENTIONS, Pose
+from app.pendant.user_frame import taught, user_frame
+from app.units import deg, from_deg, from_mm, mm
+
+if TYPE_CHECKING:
+    from app.pendant.client import Pendant
+
+_FARTHEST_MM = 10_000.0
+_ANGLES = CONVENTIONS["ZYX"]
+_POINTS = ("origin", "on_x", "on_y")
+
+
+class UserFrame:
+    """Fields and buttons; visible while the user frame is jogged.
+
+    Args:
+        pendant: whose frame.
+    """
+
+    def __init__(self, pendant: Pendant):
+        self._pendant = pendant
+        gui, t = pendant.client.gui, pendant.t
+        self._points: dict[str, np.ndarray] = {}
+        self._folder = gui.add_folder(t("jog.user"), visible=False)
+        with self._folder:
+            self._place = gui.add_vector3(t("jog.user_place"), (0.0, 0.0, 0.0), step=0.1)
+            self._turn = gui.add_vector3(t("jog.user_turn"), (0.0, 0.0, 0.0), step=0.1)
+            pendant.changed(self._place, "user_place", lambda _: self._typed())
+            pendant.changed(self._turn, "user_turn", lambda _: self._typed())
+            teach = {t(f"jog.user_{key}"): key for key in _POINTS}
+            group = gui.add_button_group(t("jog.user_teach"), tuple(teach), hint=t("jog.user_hint"))
+            pendant.chosen(group, lambda label: self._teach(teach[label], label))
+            pendant.clicked(gui.add_button(t("jog.user_table"), color="gray"), self._table)
+        self._write()
+
+    def show(self, visible: bool) -> None:
+        """With its axes in the cell, or neither."""
+        self._folder.visible = visible
+        self._pendant.stage.user.show(user_frame(self._pendant) if visible else None)
+
+    def _typed(self) -> None:
+        rotation = _ANGLES.to_rotation(from_deg(np.array(self._turn.value, float)))
+        place = np.clip(np.array(self._place.value, float), -_FARTHEST_MM, _FARTHEST_MM)
+        self._set(Pose.of(rotation, from_mm(place)))
+
+    def _teach(self, key: str, label: str) -> None:
+        pendant = self._pendant
+        self._points[key] = pendant.hand().position
+        missing = [pendant.t(f"jog.user_{k}") for k in _POINTS if k not in self._points]
+        if missing:
+            pendant.say("info", pendant.t("message.user_point", point=label, missing=", ".join(missing)))
+            return
+        points, self._points = self._points, {}
+        origin, on_x, on_y = (points[k] for k in _POINTS)
+        self._set(taught(origin, on_x, on_y, pendant.t("message.user_line")))
+        self._write()
+        pendant.say("good", pendant.t("message.user_taught"))
+
+    def _table(self) -> None:
+        self._set(None)
+        self._write()
+
+    def _set(self, T_base_user: Pose | None) -> None:
+        self._pendant.jogging.T_base_user = T_base_user
+        self._pendant.stage.user.show(user_frame(self._pendant))
+
+    def _write(self) -> None:
+        frame = user_frame(self._pendant)
+        x, y, z = (round(float(v), 2) for v in mm(frame.position))
+        a, b, c = (round(float(v), 2) for v in deg(_ANGLES.from_rotation(frame.rotation)))
+        self._place.value, self._turn.value = (x, y, z), (a, b, c)
