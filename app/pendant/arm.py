@@ -6,6 +6,7 @@ one quaternion a joint afterwards.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from functools import cache
 
@@ -19,6 +20,7 @@ from app.kinematics.shapes import Shape, rod
 from app.kinematics.solids import Solid, faces, robot_solids, solids, tool_shapes
 
 GHOST_OPACITY = 0.35
+_SEEN = 1e-6  # rad or m: a joint that moved less is not sent; inverse kinematics never leaves one quite alone
 #: Moves vertices (n, 3) [m] of a drawing.
 Bend = Callable[[np.ndarray], np.ndarray]
 Mesh = tuple[int, tuple[int, int, int], np.ndarray, np.ndarray]
@@ -77,15 +79,16 @@ class ArmView:
     def set(self, q: np.ndarray) -> None:
         """Shows the arm at q (n,) [rad or m]; only joints that moved are sent."""
         q = np.asarray(q, float)
-        for k in np.flatnonzero(q != self._q):
+        moved_joints = np.abs(q - self._q) > _SEEN
+        for k in np.flatnonzero(moved_joints):
             axis, placement = self.robot.chain.axes[k], self._placements[k]
             if self.robot.joints[k].prismatic:
                 chain = self.robot.chain
                 moved = chain.translations[k] + chain.rotations[k] @ axis * q[k]
                 self._joints[k].position = tuple(moved)
             else:
-                self._joints[k].wxyz = tuple(_then_turn(placement, axis, q[k]))
-        self._q = q.copy()
+                self._joints[k].wxyz = _then_turn(placement, axis, float(q[k]))
+        self._q = np.where(moved_joints, q, self._q)
 
     @property
     def q(self) -> np.ndarray:
@@ -174,9 +177,14 @@ def _add(scene: viser.SceneApi, name: str, colour, vertices, triangles, ghost: b
     )
 
 
-def _then_turn(placement: np.ndarray, axis: np.ndarray, angle: float) -> np.ndarray:
-    """placement * (cos a/2, axis sin a/2), wxyz."""
-    w0, v0 = placement[0], placement[1:]
-    w1, v1 = np.cos(angle / 2), axis * np.sin(angle / 2)
-    x = w0 * v1 + w1 * v0 + np.cross(v0, v1)
-    return np.array([w0 * w1 - v0 @ v1, x[0], x[1], x[2]])
+def _then_turn(placement: np.ndarray, axis: np.ndarray, angle: float) -> tuple[float, float, float, float]:
+    """placement * (cos a/2, axis sin a/2), wxyz; on plain floats, because numpy's calls cost more than the sums."""
+    w0, x0, y0, z0 = placement.tolist()
+    w1, s = math.cos(angle / 2), math.sin(angle / 2)
+    x1, y1, z1 = (s * part for part in axis.tolist())
+    return (
+        w0 * w1 - x0 * x1 - y0 * y1 - z0 * z1,
+        w0 * x1 + x0 * w1 + y0 * z1 - z0 * y1,
+        w0 * y1 - x0 * z1 + y0 * w1 + z0 * x1,
+        w0 * z1 + x0 * y1 - y0 * x1 + z0 * w1,
+    )

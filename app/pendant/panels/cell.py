@@ -62,8 +62,10 @@ class _View:
         pendant.say("good", pendant.t("message.robot", title=pendant.model.title))
 
     def _speak(self, name: str) -> None:
-        self._pendant.language = self._languages[name]
-        self._pendant.rebuild()
+        pendant = self._pendant
+        pendant.language = self._languages[name]
+        pendant.rebuild()
+        pendant.say("info", pendant.t("message.language"))
 
     def _dark(self, dark: bool) -> None:
         pendant = self._pendant

@@ -9,8 +9,8 @@ from app.kinematics.shapes import Shape, rod
 from app.simulation.world import World
 from app.units import from_mm
 
-_POST, _WIRE, _THICK = from_mm(22.0), from_mm(5.0), from_mm(30.0)
-_YELLOW, _GREY = (0.86, 0.66, 0.10), (0.42, 0.45, 0.49)
+_POST, _WIRE, _THICK = from_mm(20.0), from_mm(3.5), from_mm(30.0)
+_YELLOW, _GREY = (0.90, 0.74, 0.28), (0.66, 0.69, 0.72)
 #: Of the reach: how far behind the arm, how far beside it, how far forward the side goes, and how high.
 _BEHIND, _BESIDE, _FORWARD, _HEIGHT = 0.80, 1.02, 0.95, 0.75
 _WIRES = 6
