@@ -36,6 +36,7 @@ EXAMPLES = {
     "base_shift": ({"body": "base", "from_row": 33}, [1e-3, 0.0, -8e-4], {"turning": 0.0}),
     "tool_slip": ({"body": "tool", "from_row": 25}, [1e-3, 0.0, 9e-4], {}),
     "joint_slip": ({"joint": 3, "from_row": 30}, [2e-3], {}),
+    "early_reading": ({"body": "instrument", "driver": "approach"}, [1.5e-3], {}),
     "instrument_scale": ({"body": "instrument"}, [1.5e-3], {}),
     "instrument_zero_shift": ({"body": "instrument"}, [5e-3], {}),
 }
