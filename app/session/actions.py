@@ -155,6 +155,7 @@ class Begin(Action, frozen=True, tag="begin"):
         mode, touches: the wizard.
         tools: tools the controller has, the last one active: name, and T_flange_tool row by row [m].
         tracker: the two-robot procedure instead of the tool wizard; with fixed points or without.
+        trainee: who does it; empty where nobody gave a name.
     """
 
     exercise: str
@@ -165,6 +166,7 @@ class Begin(Action, frozen=True, tag="begin"):
     touches: int | None = None
     tools: tuple[tuple[str, tuple[float, ...]], ...] = ()
     tracker: Literal["", "nests", "bare"] = ""
+    trainee: str = ""
 
 
 class Tracked(Action, frozen=True, tag="tracked"):

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
-from functools import cached_property
+from dataclasses import dataclass, field, replace
+from functools import cached_property, lru_cache
 from typing import Any
 
 import numpy as np
@@ -13,12 +13,14 @@ from app import catalog
 from app.diagnosis.model import SavedModel
 from app.diagnosis.static.cell import nominal_cell, pose
 from app.diagnosis.static.effect import Place, Quantity, StaticEffect
-from app.diagnosis.static.situation import situation_for
+from app.diagnosis.static.situation import Situation, situation_for
 from app.errors import UnknownNameError
 from app.geometry import Pose
 from app.kinematics import RobotModel
 
 EFFECTS = "app.diagnosis.effects.static"
+#: Effects that no torque drives.
+_WEIGHTLESS = frozenset({"joint_zero", "joint_slip", "link_length", "link_twist", "tool_slip", "base_shift"})
 CONVENTION = "wrong_convention"
 _FIXED = "fixed_"  # how a saved model marks values that choose a law's form
 
@@ -107,8 +109,7 @@ def true_flange(
     """
     if not faults:
         return robot.forward(q)
-    payload = {} if load is None else {"payload": np.array([load.mass]), "payload_com": np.array(load.centre)}
-    situation = situation_for(robot, np.asarray(q, float)[None], order=np.array([row]), **payload)
+    situation = _situation(robot, np.asarray(q, float)[None], faults, row, load)
     cell = nominal_cell(situation)
     for fault in faults:
         names = [quantity.name for quantity in fault.law.quantities(situation, fault.place)]
@@ -116,3 +117,21 @@ def true_flange(
         cell = fault.law.apply(cell, situation, fault.place, values)
     posed = pose(situation, cell, np.zeros((1, 3)))
     return Pose.of(posed.hand[0], posed.points[0, 0])
+
+
+def _situation(
+    robot: RobotModel, q: np.ndarray, faults: tuple[Fault, ...], row: int, load: Load | None
+) -> Situation:
+    """The drivers at q (1, n); torques, which take longest, only where an effect may follow them."""
+    order = np.array([row])
+    if all(fault.effect in _WEIGHTLESS for fault in faults):
+        return replace(_at_home(robot), q=q, order=order)
+    if load is None:
+        return situation_for(robot, q, order=order)
+    centre = np.array(load.centre)
+    return situation_for(robot, q, order=order, payload=np.array([load.mass]), payload_com=centre)
+
+
+@lru_cache(maxsize=32)
+def _at_home(robot: RobotModel) -> Situation:
+    return situation_for(robot, robot.home[None])

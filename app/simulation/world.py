@@ -79,7 +79,9 @@ class World:
 
     def true_flange(self, q: np.ndarray) -> Pose:
         """T_base_flange as it really is while the controller shows `q` (n,)."""
-        return true_flange(self.robot, q, self.faults, self.row, self.load)
+        if not self.faults:
+            return self.robot.forward(q)
+        return _faulty_flange(self, np.asarray(q, float).tobytes())
 
     @property
     def T_flange_tool_hand(self) -> Pose:
@@ -142,6 +144,12 @@ class World:
                 break
         assert result is not None
         return result
+
+
+@lru_cache(maxsize=64)
+def _faulty_flange(world: World, q: bytes) -> Pose:
+    """Asked several times for the same joints: for the tip, its distance, and what is drawn."""
+    return true_flange(world.robot, np.frombuffer(q), world.faults, world.row, world.load)
 
 
 def default_world(robot: RobotModel) -> World:

@@ -54,15 +54,15 @@ def advice_for(
         found += _accuracy(exercise, figures, state)
     if "axes" in lacking and "axis_deg" in figures:
         found.append(_axes(state))
-    if "care" in lacking:
+    if "care" in lacking and figures["near_misses"]:
         found.append(
             Advice("care", {"times": f"{figures['near_misses']:.0f}", "mm": f"{figures['closest_mm']:.0f}"})
         )
-    if "time" in lacking:
+    if "time" in lacking and figures["seconds"] > 60.0 * exercise.aims.minutes:
         found.append(Advice("time", {"minutes": f"{exercise.aims.minutes:g}"}))
-    if "tidy" in lacking:
+    if "tidy" in lacking and figures["repeats"]:
         found.append(Advice("tidy", {"times": f"{figures['repeats']:.0f}"}))
-    if "travel" in lacking and "travel_m" in figures:
+    if "travel" in lacking and figures.get("travel_m", 0.0) > exercise.aims.travel_m:
         found.append(
             Advice("travel", {"m": f"{figures['travel_m']:.1f}", "aim": f"{exercise.aims.travel_m:g}"})
         )

@@ -12,12 +12,13 @@ from app.training.exercise import Exercise
 from app.training.truth import Truth, truth_of
 
 
-def begin(exercise: Exercise, seed: int, at: float) -> Begin:
+def begin(exercise: Exercise, seed: int, at: float, trainee: str = "") -> Begin:
     """The action that begins an attempt.
 
     Args:
         seed: draws the truth.
         at: when [s since 1970].
+        trainee: who does it.
     """
     tools: tuple[tuple[str, tuple[float, ...]], ...] = ()
     if exercise.goal != "relation":
@@ -25,7 +26,9 @@ def begin(exercise: Exercise, seed: int, at: float) -> Begin:
         if active is not None:
             tools = (("tool 1", tuple(float(v) for v in active.matrix.ravel())),)
     tracker = "" if exercise.goal != "relation" else "nests" if exercise.nests else "bare"
-    return Begin(exercise.key, seed, at, exercise.robot, exercise.mode, exercise.touches, tools, tracker)
+    return Begin(
+        exercise.key, seed, at, exercise.robot, exercise.mode, exercise.touches, tools, tracker, trainee
+    )
 
 
 def world_of(state: SessionState) -> World | None:

@@ -59,6 +59,14 @@ class Records:
             rows = connection.execute(wanted).all()
         return [_card(number, text) for number, text in rows]
 
+    def trainee_of(self, session: str) -> str:
+        """Who did the last exercise in a session; empty where nobody did."""
+        newest = (
+            select(SCORES.c.trainee).where(SCORES.c.session == session).order_by(SCORES.c.id.desc()).limit(1)
+        )
+        with self._database.begin() as connection:
+            return connection.execute(newest).scalar() or ""
+
     def best(self, trainee: str) -> dict[str, float]:
         """The best total of each exercise a trainee has done."""
         found: dict[str, float] = {}

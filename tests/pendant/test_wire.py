@@ -138,7 +138,7 @@ def work(pendant, chosen):
             touched = world.stroke(origin, "xyz".index(step.role), 0.12, pendant.rng)  # noqa: F821
         assert touched.reached
         origin = touched.q  # noqa: F841
-        done(pendant, lambda q=touched.q: pendant.place(q))
+        done(pendant, lambda q=touched.q: pendant.go(q))
         done(pendant, lambda key=step.key: pendant.do(Record(key, as_tuple(pendant.q))))
     for name in ("close", "side", "front", "whole"):
         done(pendant, lambda name=name: pendant.stage.view(name))

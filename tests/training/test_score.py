@@ -178,6 +178,7 @@ def test_history_is_kept_by_trainee_and_exercise_in_its_order(tmp_path):
     assert again.history("Ada", "first_tool") == cards and again.history("Ada", "bent_tip") == []
     assert again.best("Ada") == {"first_tool": max(c.total for c in cards)}
     assert len(again.history("Bob")) == 1
+    assert (again.trainee_of("s"), again.trainee_of("t")) == ("Bob", "")
 
 
 @pytest.mark.parametrize(

@@ -106,7 +106,9 @@ class _View:
             pendant.say("warning", pendant.t("sessions.secret"))
             return
         name = f"session_{listed.name[:8]}.jsonl"
-        pendant.client.send_file_download(name, encode_journal(recorded.header, recorded.entries))
+        pendant.client.send_file_download(
+            name, encode_journal(recorded.header, recorded.entries), save_immediately=True
+        )
         pendant.say("good", pendant.t("sessions.exported", name=name))
 
     def _take(self, name: str, content: bytes) -> None:

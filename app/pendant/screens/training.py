@@ -26,6 +26,12 @@ class _View:
         self.pendant = pendant
         gui, t = pendant.client.gui, pendant.t
         self._said_at = 0.0
+        running, session = pendant.session.state.running, pendant.session.name
+        if not pendant.trainee:  # after a reload
+            last = pendant.shelf.records.trainee_of(session)
+            pendant.trainee = (
+                running.begun.trainee if running is not None else "" if last == session else last
+            )
         self._name = gui.add_text(t("training.name"), pendant.trainee, hint=t("training.name_hint"))
         pendant.changed(self._name, "trainee", self._named)
         self._list: Any = gui.add_dropdown(t("training.exercise"), ("-",))
@@ -89,23 +95,23 @@ class _View:
 
     def _start(self) -> None:
         pendant, chosen = self.pendant, self.chosen
-        pendant.do(begin(chosen, secrets.randbits(_SEEDS), time.time()))
+        pendant.do(begin(chosen, secrets.randbits(_SEEDS), time.time(), pendant.trainee))
         pendant.say("info", pendant.t("training.begun", title=chosen.said(pendant.language).title))
 
     def _finish(self) -> None:
         answer = self._answers.get(str(self._answer.value), "") if self._answer.visible else ""
         number = int(self._number.value) if self._number.visible else 0
-        scoring.finish(self.pendant, self.pendant.trainee, Finish(answer, number))
+        scoring.finish(self.pendant, Finish(answer, number))
 
     def _give_up(self) -> None:
-        scoring.finish(self.pendant, self.pendant.trainee, Finish(given_up=True))
+        scoring.finish(self.pendant, Finish(given_up=True))
 
     def _show_last(self) -> None:
         tries = [
             c for c in self.pendant.shelf.records.history(self._trainee, self.chosen.key) if not c.given_up
         ]
         if tries:
-            scoring.show(self.pendant, self.pendant.trainee, tries[-1])
+            scoring.show(self.pendant, self._trainee, tries[-1])
 
     # What is shown -----------------------------------------------------------------------------------------
 

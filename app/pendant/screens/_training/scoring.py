@@ -16,13 +16,15 @@ if TYPE_CHECKING:
 _ASPECT = 1.9  # width over height of the plot
 
 
-def finish(pendant: Pendant, trainee: str, action: Finish) -> ScoreCard:
+def finish(pendant: Pendant, action: Finish) -> ScoreCard | None:
     """Ends the exercise, keeps its score and shows it."""
+    running = pendant.session.state.running
     pendant.do(action)
-    attempt = last_attempt(pendant.session.entries)
-    chosen = exercise(attempt[0].action.exercise)  # type: ignore[union-attr]
-    card = score(chosen, attempt)
-    pendant.shelf.records.add(trainee or pendant.session.name, pendant.session.name, card)
+    if running is None:
+        return None
+    trainee = running.begun.trainee or pendant.session.name
+    card = score(exercise(running.begun.exercise), last_attempt(pendant.session.entries))
+    pendant.shelf.records.add(trainee, pendant.session.name, card)
     if card.given_up:
         pendant.say("info", pendant.t("training.gave_up"))
     else:
@@ -38,7 +40,7 @@ def show(pendant: Pendant, trainee: str, card: ScoreCard) -> None:
     modal = gui.add_modal(chosen.said(pendant.language).title)
     with modal:
         gui.add_html(cards.after(pendant, card))
-        tries = pendant.shelf.records.history(trainee or pendant.session.name, chosen.key)
+        tries = pendant.shelf.records.history(trainee, chosen.key)
         if len([c for c in tries if not c.given_up]) > 1:
             gui.add_plotly(plots.history(pendant, tries, chosen.goal), aspect=_ASPECT)
         pendant.clicked(gui.add_button(t("training.close")), modal.close)
