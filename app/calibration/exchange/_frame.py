@@ -75,7 +75,7 @@ def safe_name(name: str) -> str:
     clean = re.sub(r"[^A-Za-z0-9_]", "_", name).strip("_")
     if not clean or not clean[0].isalpha():
         clean = f"tool_{clean}".strip("_")
-    return clean[:LONGEST_NAME]
+    return clean[:LONGEST_NAME].rstrip("_")
 
 
 def number(text: str, row: int | None = None, column: str | None = None) -> float:

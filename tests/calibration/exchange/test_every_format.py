@@ -52,6 +52,7 @@ def frames():
 @given(frames())
 @example(ToolFrame("up", Pose.of(rot_y(np.pi / 2))))  # where two of three angles turn about one axis
 @example(ToolFrame("over", Pose.of(rot_y(np.pi))))
+@example(ToolFrame("0" * 18 + ":0", Pose.of(None)))  # cut where a blank stood
 def test_a_frame_that_is_written_is_read_back(key, frame):
     form = exchange_format(key)
     text = form.write(frame)
@@ -163,6 +164,15 @@ def test_a_text_as_the_maker_writes_it_is_understood(key, tmp_path):
     found = read_frame(path)
     np.testing.assert_allclose(found.pose.matrix, EXPECTED.matrix, atol=1e-7)
     assert found.name == "torch"
+
+
+@pytest.mark.parametrize(
+    "given_, name",
+    [("工具 1", "tool_1"), ("", "tool"), ("2 torch", "tool_2_torch"), ("a" * 40, "a" * 24), ("__x", "x")],
+)
+def test_any_name_becomes_one_that_every_controller_takes(given_, name):
+    frame = ToolFrame(given_, EXPECTED)
+    assert frame.name == name and ToolFrame(frame.name, EXPECTED).name == name
 
 
 def test_every_format_has_a_makers_text():
