@@ -169,6 +169,27 @@ class Begin(Action, frozen=True, tag="begin"):
     trainee: str = ""
 
 
+class OpenCell(Action, frozen=True, tag="open_cell"):
+    """A cell of two robots and a laser tracker is set up.
+
+    Args:
+        first, second: names of the robots.
+        seed: draws where exactly everything stands.
+        nests: fixed points on the floor are part of the procedure.
+        pushed: somebody pushes the tracker before robot 2, and tells nobody.
+    """
+
+    first: str
+    second: str
+    seed: int
+    nests: bool = True
+    pushed: bool = False
+
+
+class CloseCell(Action, frozen=True, tag="close_cell"):
+    """The cell of two robots is taken down with all that was measured in it."""
+
+
 class Tracked(Action, frozen=True, tag="tracked"):
     """The laser tracker measured a point [m] for the step at hand of the two-robot procedure."""
 
@@ -218,6 +239,8 @@ AnyAction = (
     | Undo
     | Redo
     | Begin
+    | OpenCell
+    | CloseCell
     | Tracked
     | TrackerNext
     | TrackerUndo

@@ -10,8 +10,10 @@ from app.session.actions import (
     AnyAction,
     Begin,
     ChooseRobot,
+    CloseCell,
     Finish,
     Move,
+    OpenCell,
     Redo,
     Tracked,
     TrackerNext,
@@ -24,7 +26,7 @@ from app.session.state import SessionState
 STEPS = "app.session.steps"
 
 #: No change of the list: what Undo takes back stays the same.
-_ASIDE = Move | Tracked | TrackerNext | TrackerUndo | Finish
+_ASIDE = Move | Tracked | TrackerNext | TrackerUndo | Finish | OpenCell | CloseCell
 
 Reducer = Callable[[SessionState, AnyAction], SessionState]
 
@@ -58,10 +60,14 @@ def reduce(state: SessionState, action: AnyAction) -> SessionState:
 def _undo(state: SessionState) -> SessionState:
     if state.before is None:
         raise refusal("nothing_to_undo")
-    return state.before.but(q=state.q, running=state.running, count=state.count + 1, after=state)
+    return state.before.but(
+        q=state.q, running=state.running, two_robots=state.two_robots, count=state.count + 1, after=state
+    )
 
 
 def _redo(state: SessionState) -> SessionState:
     if state.after is None:
         raise refusal("nothing_to_redo")
-    return state.after.but(q=state.q, running=state.running, count=state.count + 1, before=state)
+    return state.after.but(
+        q=state.q, running=state.running, two_robots=state.two_robots, count=state.count + 1, before=state
+    )

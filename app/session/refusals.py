@@ -28,7 +28,7 @@ _SENTENCES = {
     "other_robot": "the points were recorded with another arm",
     "exercise_runs": "an exercise is being done; finish it or give it up first",
     "no_exercise": "no exercise is being done",
-    "no_tracker": "this exercise has no laser tracker",
+    "no_tracker": "there is no laser tracker here: open the cell of two robots first",
     "model_kind": "a model of joint logs moves nothing in the practice cell; it takes one of touches or tracker points",
     "model_robot": "the model was learnt on {learnt}, and {robot} stands in the practice cell",
     "unknown": "{reason}",

@@ -6,13 +6,18 @@ import msgspec
 
 from app.calibration.solving import to_json
 from app.calibration.text import page
-from app.session.state import SessionState, mode_named
+from app.session.state import SessionState, TwoRobots, mode_named
+from app.simulation.tracker_cell import make_cell
+from app.simulation.tracker_procedure import senses
+from app.units import mm
 
 
 def report_text(state: SessionState) -> str:
     """The result as a page; where there is none, what is still missing."""
     if state.result is not None:
         return page(state.result)
+    if state.two_robots is not None:
+        return two_robots_text(state.two_robots)
     recorded, missing = len(state.captures), ", ".join(step.title for step in state.missing)
     lines = [
         f"{state.model.title}, {mode_named(state.mode).title}: {recorded} of {len(state.steps)} points, no result"
@@ -20,6 +25,26 @@ def report_text(state: SessionState) -> str:
     if missing:
         lines.append(f"not recorded: {missing}")
     lines += [f"accepted: {tool.name}" for tool in state.tools]
+    return "\n".join(lines)
+
+
+def two_robots_text(work: TwoRobots) -> str:
+    """The relation found; before the end, what is done and what comes next."""
+    opened, wizard = work.opened, work.wizard
+    head = f"two robots: {opened.first} and {opened.second}, {len(wizard.records)} points measured"
+    if not wizard.done:
+        return f"{head}\n{wizard.summary()}"
+    cell = make_cell(opened.first, opened.second, opened.seed)
+    bases, relation = wizard.solve(tuple(arm.robot for arm in cell.arms), senses(cell))
+    lines = [head]
+    for number, base in enumerate(bases, 1):
+        x, y, z = mm(base.T_tracker_base.position)
+        lines.append(f"base {number} in its tracker frame: {x:.3f}, {y:.3f}, {z:.3f} mm")
+        lines += [f"  {warning.message}" for warning in base.warnings]
+    if relation is not None and relation.T_base1_base2 is not None:
+        x, y, z = mm(relation.T_base1_base2.position)
+        lines.append(f"base 2 in base 1: {x:.3f}, {y:.3f}, {z:.3f} mm")
+        lines += [f"  {warning.message}" for warning in relation.warnings]
     return "\n".join(lines)
 
 

@@ -17,7 +17,7 @@ from app.calibration.solving import Solved
 from app.diagnosis.model import SavedModel
 from app.geometry import Pose
 from app.kinematics import RobotModel, load_robot, robot_names
-from app.session.actions import Begin, Enter, LoadPoints
+from app.session.actions import Begin, Enter, LoadPoints, OpenCell
 
 MODES = "app.calibration.modes"
 FIRST_ROBOT = "jby50"
@@ -50,6 +50,19 @@ class Running:
 
 
 @dataclass(frozen=True, eq=False)
+class TwoRobots:
+    """A cell of two robots in which somebody works through the procedure.
+
+    Args:
+        opened: how it was set up.
+        wizard: where the procedure stands, with everything measured.
+    """
+
+    opened: OpenCell
+    wizard: BaseWizard
+
+
+@dataclass(frozen=True, eq=False)
 class SessionState:
     """One moment of a session.
 
@@ -66,6 +79,7 @@ class SessionState:
         source: the file the points came from; None where they were recorded here.
         entered: the tool frame typed in for the mode `direct`.
         running: the exercise that is being done.
+        two_robots: the cell of two robots that is open.
         cell_model: what is wrong with the arm in the practice cell; None where it is as described.
         count: actions so far.
         before: what Undo goes back to.
@@ -84,6 +98,7 @@ class SessionState:
     source: LoadPoints | None = None
     entered: Enter | None = None
     running: Running | None = None
+    two_robots: TwoRobots | None = None
     cell_model: SavedModel | None = None
     count: int = 0
     before: SessionState | None = field(default=None, repr=False)

@@ -28,6 +28,14 @@ def test_a_person_finds_where_the_second_robot_stands_and_both_tools_meet(serve,
     person.click("Run this step")
     person.until(lambda: _run(person).wizard.index == 1, "the nests to be measured")
     person.until(lambda: person.seen("base-plan").count("●") == 1, "the list to show it")
+    before = person.pendant
+    person.page.reload()
+    person.until(lambda: any(p is not before for p in person.server.pendants), "the page to come back")
+    person.pendant = next(p for p in person.server.pendants if p is not before)
+    person.page.get_by_test_id("status").wait_for()
+    person.close_notice()
+    person.tab("Two robots")
+    person.until(lambda: person.seen("base-plan").count("●") == 1, "the procedure where it was left")
     _view(person)._every.value = 20  # fewer points, so that the test is short
     person.click("Run the whole procedure")
     person.until(lambda: len(_run(person).wizard.of("1.axis1")) > 3, "half an arc")

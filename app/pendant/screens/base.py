@@ -13,7 +13,8 @@ from app.pendant.screens._base import cards
 from app.pendant.screens._base.exam import Exam
 from app.pendant.screens._base.run import Run
 from app.session import SessionState
-from app.simulation.tracker_cell import TrackerCell, make_cell
+from app.session.actions import CloseCell, OpenCell
+from app.simulation.tracker_cell import TrackerCell
 from app.simulation.tracker_meeting import Meeting
 from app.units import deg, from_deg, mm
 
@@ -81,28 +82,37 @@ class _View:
     def _open(self) -> None:
         pendant = self._pendant
         first, second = (str(robot.value) for robot in self._robots)
-        self._opened(make_cell(first, second, int(pendant.rng.integers(_SPREAD))), None)
-        self._close_button.visible = True
+        pendant.do(
+            OpenCell(
+                first,
+                second,
+                int(pendant.rng.integers(_SPREAD)),
+                nests=bool(self._nests.value),
+                pushed=bool(self._pushed.value),
+            )
+        )  # the screen follows the session, see refresh
         pendant.say("info", pendant.t("base.opened"))
 
-    def _opened(self, cell: TrackerCell, exam: Exam | None) -> None:
+    def _opened(self, exam: Exam) -> None:
         pendant = self._pendant
         pendant.stage.make_room(True)
         self._run = Run(
             pendant.client.scene,
-            cell,
-            nests=bool(self._nests.value),
-            pushed=bool(self._pushed.value),
+            exam.truth.cell,
+            nests=True,
+            pushed=False,
             seed=int(pendant.rng.integers(_SPREAD)),
             exam=exam,
         )
         look(pendant.client.camera, _whole(self._run.drawn))
         self._intro.visible = self._setup.visible = False
         self._work.visible = True
+        self._close_button.visible = exam.free
         self._finish(self._run)
 
     def _leave_cell(self) -> None:
         self._drop()
+        self._pendant.do(CloseCell())
         self._pendant.stage.make_room(False)
         self._pendant.stage.view("whole")
         self._intro.visible = self._setup.visible = True
@@ -211,10 +221,9 @@ class _View:
         self._send.visible = run.relation is not None and run.relation.T_base1_base2 is not None
 
     def refresh(self, state: SessionState) -> None:
-        """The session is another wizard's: only an exercise with two robots is followed here."""
-        exam = Exam.of(self._pendant.session)
-        if exam is not None and self._run is None:
-            self._opened(exam.truth.cell, exam)
+        """The cell of the session, an exercise's or a free one, is taken up where it was left."""
+        if self._run is None and (exam := Exam.of(self._pendant.session)) is not None:
+            self._opened(exam)
 
     def close(self) -> None:
         """The page goes: motions end and the cell is taken down."""

@@ -1,15 +1,13 @@
-"""An exercise: begin, what its tracker measures, finish."""
+"""An exercise: begin, finish."""
 
 from __future__ import annotations
-
-from dataclasses import replace
 
 import numpy as np
 
 from app.calibration.base.wizard import BaseWizard, steps
 from app.errors import UnknownNameError
 from app.geometry import Pose
-from app.session.actions import Begin, ChooseMode, Finish, Tracked, TrackerNext, TrackerUndo
+from app.session.actions import Begin, ChooseMode, Finish
 from app.session.refusals import refusal
 from app.session.state import Running, SessionState, Tool, first_state
 from app.session.steps.setup import choose_mode
@@ -28,32 +26,10 @@ def _begin(state: SessionState, action: Begin) -> SessionState:
     return fresh.but(tools=tools, running=Running(action, wizard=wizard), count=state.count)
 
 
-def _wizard(state: SessionState) -> tuple[Running, BaseWizard]:
-    if state.running is None or state.running.wizard is None:
-        raise refusal("no_tracker")
-    return state.running, state.running.wizard
-
-
-def _tracked(state: SessionState, action: Tracked) -> SessionState:
-    running, wizard = _wizard(state)
-    wizard = wizard.record(np.array(action.point), angle=action.angle, name=action.name, sigma=action.sigma)
-    return state.but(running=replace(running, wizard=wizard, records=running.records + 1))
-
-
-def _next(state: SessionState, action: TrackerNext) -> SessionState:
-    running, wizard = _wizard(state)
-    return state.but(running=replace(running, wizard=wizard.advance()))
-
-
-def _back(state: SessionState, action: TrackerUndo) -> SessionState:
-    running, wizard = _wizard(state)
-    return state.but(running=replace(running, wizard=wizard.undo()))
-
-
 def _finish(state: SessionState, action: Finish) -> SessionState:
     if state.running is None:
         raise refusal("no_exercise")
     return state.but(running=None)
 
 
-ACTIONS = {Begin: _begin, Tracked: _tracked, TrackerNext: _next, TrackerUndo: _back, Finish: _finish}
+ACTIONS = {Begin: _begin, Finish: _finish}

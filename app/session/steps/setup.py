@@ -24,7 +24,7 @@ def _choose_robot(state: SessionState, action: ChooseRobot) -> SessionState:
         fresh = first_state(action.robot, state.mode)
     except UnknownNameError as error:
         raise refusal("unknown", reason=str(error)) from None
-    return fresh.but(touches=state.touches, method=state.method)
+    return fresh.but(touches=state.touches, method=state.method, two_robots=state.two_robots)
 
 
 def choose_mode(state: SessionState, action: ChooseMode) -> SessionState:

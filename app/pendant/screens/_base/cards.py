@@ -42,7 +42,7 @@ def result(pendant: Pendant, run: Run) -> str:
         t("base.light_none") if severe else t("base.light_found", miss=f"{mm(relation.sigma_meeting):.2f}")
     )
     out = html.light(colour, sentence, testid="base-light")
-    if relation.T_base1_base2 is not None and run.exam is None:
+    if relation.T_base1_base2 is not None and (run.exam is None or run.exam.free):
         truth = run.cell.T_base1_base2
         gap = relation.T_base1_base2.inverse() @ truth
         sigma = np.sqrt(np.diag(relation.covariance))

@@ -1,4 +1,4 @@
-"""The two-robot procedure as an exercise: what is measured goes into the session, what is true stays here."""
+"""The two-robot procedure of a session, free or as an exercise: what is measured goes there, the truth stays here."""
 
 from __future__ import annotations
 
@@ -7,15 +7,20 @@ from dataclasses import dataclass
 import numpy as np
 
 from app.calibration.base.wizard import BaseWizard
+from app.geometry import Pose
 from app.session import Session
 from app.session.actions import Tracked, TrackerNext, TrackerUndo
-from app.session.state import Running, as_tuple
+from app.session.state import as_tuple
+from app.simulation.tracker_cell import make_cell
 from app.training.tracker import TrackerTruth, tracker_truth
+
+#: What somebody does to the tracker between the two robots.
+PUSH = Pose.exp(np.array([0.015, -0.012, 0.0, 0.0, 0.0, 0.006]))
 
 
 @dataclass(frozen=True, eq=False)
 class Exam:
-    """One attempt.
+    """One run of it.
 
     Args:
         session: where every point goes.
@@ -27,18 +32,31 @@ class Exam:
 
     @classmethod
     def of(cls, session: Session) -> Exam | None:
-        """The attempt that is being made; None where none is, or it is no two-robot exercise."""
-        running = session.state.running
-        if running is None or running.wizard is None:
+        """The procedure that is being worked through; None where none is."""
+        state = session.state
+        if state.running is not None:
+            if state.running.wizard is None:
+                return None
+            begun = state.running.begun
+            return cls(session, tracker_truth(begun.exercise, begun.seed))
+        if state.two_robots is None:
             return None
-        return cls(session, tracker_truth(running.begun.exercise, running.begun.seed))
+        opened = state.two_robots.opened
+        cell = make_cell(opened.first, opened.second, opened.seed)
+        return cls(session, TrackerTruth(cell, cell, PUSH if opened.pushed else None))
+
+    @property
+    def free(self) -> bool:
+        """Nobody examines: the cell may be closed."""
+        return self.session.state.running is None
 
     @property
     def wizard(self) -> BaseWizard:
         """Where the procedure stands."""
-        running: Running | None = self.session.state.running
-        assert running is not None and running.wizard is not None
-        return running.wizard
+        state = self.session.state
+        at_hand = state.running or state.two_robots
+        assert at_hand is not None and at_hand.wizard is not None
+        return at_hand.wizard
 
     def record(self, point: np.ndarray, angle: float, name: str, sigma: float) -> BaseWizard:
         """A measured point (3,) [m]."""

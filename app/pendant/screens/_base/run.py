@@ -10,18 +10,16 @@ import viser
 from app.calibration.base.relation import Relation
 from app.calibration.base.result import BaseCalibration
 from app.calibration.base.wizard import NESTS, TURN, BaseWizard, Step, steps
-from app.geometry import Pose
 from app.geometry.circle import fit_axis
 from app.pendant.motion import move, pause
 from app.pendant.scene.tracker_cell import CellDrawing
-from app.pendant.screens._base.exam import Exam
+from app.pendant.screens._base.exam import PUSH, Exam
 from app.simulation.tracker import Sight
 from app.simulation.tracker_cell import TrackerCell
 from app.simulation.tracker_meeting import Meeting, meet, pointer
 from app.simulation.tracker_procedure import WIDEST, senses
 
 _REST = 0.12  # seconds the arm stands at each point
-_PUSH = Pose.exp(np.array([0.015, -0.012, 0.0, 0.0, 0.0, 0.006]))
 
 
 class Run:
@@ -33,7 +31,7 @@ class Run:
         nests: fixed points are part of the procedure.
         pushed: somebody pushes the tracker before robot 2, and tells nobody.
         seed: of the tracker's noise.
-        exam: where this is an exercise: its wizard, and a drawing that stands beside the truth.
+        exam: the session it belongs to: its wizard, and in an exercise a drawing that stands beside the truth.
     """
 
     def __init__(
@@ -54,12 +52,17 @@ class Run:
         self.relation: Relation | None = None
         self.meeting: Meeting | None = None
         self.drawing = CellDrawing(scene, self.drawn)
-        self._push = (_PUSH if pushed else None) if exam is None else exam.truth.pushed
+        self._push = (PUSH if pushed else None) if exam is None else exam.truth.pushed
         self._rng = np.random.default_rng(seed)
         self.postures = [arm.rest.copy() for arm in cell.arms]
         self._stations = [self.drawn.tracker.T_world_tracker] * 2
         if self.wizard.step is None or self.wizard.step.robot == 2:  # taken up again where it was left
             self._second_robot()
+        for number, step in enumerate(self.wizard.steps):
+            if step.kind != NESTS and self.wizard.of(step.key):
+                self._draw_points(step)
+            if step.kind == TURN and number < self.wizard.index:
+                self._draw_circle(step)
 
     # What the arms and the beam do ------------------------------------------------------------------------
 
