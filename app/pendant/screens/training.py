@@ -18,7 +18,6 @@ if TYPE_CHECKING:
 
 _SEEDS = 48  # bits: nobody meets the same cell twice, nor guesses one
 _CLOCK = 1.0  # seconds between two looks at the clock
-_ASPECT = 1.5
 
 
 class _View:
@@ -84,7 +83,7 @@ class _View:
         if len(tries) > 1:
             with self._history:
                 self._plot = pendant.client.gui.add_plotly(
-                    plots.history(pendant, tries, chosen.goal), aspect=_ASPECT
+                    plots.history(pendant, tries, chosen.goal), aspect=plots.ASPECT, config=plots.PLAIN
                 )
 
     def _named(self, name: str) -> None:

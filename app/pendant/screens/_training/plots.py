@@ -12,8 +12,9 @@ if TYPE_CHECKING:
 
     from app.pendant.client import Pendant
 
+#: Height of the plot over its width, and no buttons on it.
+ASPECT, PLAIN = 0.62, {"displayModeBar": False}
 _SCORE, _ERROR, _RESIDUAL = "#2f9e44", "#d66014", "#868e96"
-_ERRORS = ("tool_mm", "touch_mm", "meeting_mm")
 
 
 def history(pendant: Pendant, cards: Sequence[ScoreCard], goal: str) -> go.Figure:
@@ -63,6 +64,14 @@ def history(pendant: Pendant, cards: Sequence[ScoreCard], goal: str) -> go.Figur
             "zeroline": False,
         },
         yaxis={"range": [0, 105], "gridcolor": grid, "zeroline": False},
-        yaxis2={"overlaying": "y", "side": "right", "rangemode": "tozero", "title": "mm", "showgrid": False},
+        yaxis2={
+            "overlaying": "y",
+            "side": "right",
+            "rangemode": "tozero",
+            "title": "mm",
+            "showgrid": False,
+            "tickmode": "auto",
+            "nticks": 5,
+        },
     )
     return figure

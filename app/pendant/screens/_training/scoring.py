@@ -13,8 +13,6 @@ from app.training.score import ScoreCard, score
 if TYPE_CHECKING:
     from app.pendant.client import Pendant
 
-_ASPECT = 1.9  # width over height of the plot
-
 
 def finish(pendant: Pendant, action: Finish) -> ScoreCard | None:
     """Ends the exercise, keeps its score and shows it."""
@@ -42,5 +40,7 @@ def show(pendant: Pendant, trainee: str, card: ScoreCard) -> None:
         gui.add_html(cards.after(pendant, card))
         tries = pendant.shelf.records.history(trainee, chosen.key)
         if len([c for c in tries if not c.given_up]) > 1:
-            gui.add_plotly(plots.history(pendant, tries, chosen.goal), aspect=_ASPECT)
+            gui.add_plotly(
+                plots.history(pendant, tries, chosen.goal), aspect=plots.ASPECT, config=plots.PLAIN
+            )
         pendant.clicked(gui.add_button(t("training.close")), modal.close)

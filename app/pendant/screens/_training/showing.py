@@ -73,6 +73,7 @@ class Showing:
             for showing in filter(None, (getattr(view, "showing", None) for view in pendant.page.views)):
                 showing.play(key)
             return
+        self._choice.value = self._words.mode(mode)
         demo, stops = reachable(pendant.model, mode)
         if not demo.captures:
             self._enter(demo)
