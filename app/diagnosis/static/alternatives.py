@@ -15,6 +15,15 @@ MARGIN = 9.2
 MOST = 8
 
 
+def overruled(alternatives: tuple[Alternative, ...]) -> bool:
+    """True where something else explains the data so much better that the name cannot stand.
+
+    The search takes the best it can name; what it cannot name, because base and tool hide nearly all of it, may
+    still be the better explanation.
+    """
+    return any(other.delta_bic < -MARGIN for other in alternatives)
+
+
 def alternatives_of(fitted: Fitted, index: int, wanted: tuple[Candidate, ...]) -> tuple[Alternative, ...]:
     """Candidates that, put in the place of term `index`, come within `MARGIN` of it."""
     jacobian, white = without(fitted, index)

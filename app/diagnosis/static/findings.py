@@ -9,9 +9,8 @@ from app.diagnosis.static.alternatives import alternatives_of
 from app.diagnosis.static.fit import Fitted, covariance
 from app.diagnosis.static.heldout import KEPT, heldout_squares, interleaved
 from app.diagnosis.static.library import Candidate
-from app.diagnosis.static.looking import without
+from app.diagnosis.static.looking import visible_share, without
 from app.diagnosis.static.noise import component_rms
-from app.diagnosis.static.score import basis
 from app.units import mm
 
 #: Growth of the held-out error without a finding that is no chance where structure remains.
@@ -58,18 +57,6 @@ def findings_of(
 def strong(findings: tuple[Finding, ...]) -> tuple[Finding, ...]:
     """Those whose removal clearly shows on rows left out: where structure remains, the others may be its shadow."""
     return tuple(f for f in findings if f.heldout_rms_without > STRONG * f.heldout_rms_with)
-
-
-def visible_share(fitted: Fitted, index: int) -> float:
-    """Share of the term's signature that nothing else in the fit can imitate."""
-    where = fitted.slices[index]
-    block = fitted.jacobian[:, where] @ fitted.terms[index].values
-    if not np.any(block):
-        block = fitted.jacobian[:, where].sum(axis=1)
-    keep = np.ones(fitted.jacobian.shape[1], bool)
-    keep[where] = False
-    rest = basis(fitted.jacobian[:, keep]).project(block[:, None])[:, 0]
-    return float(np.clip(np.linalg.norm(rest) / max(float(np.linalg.norm(block)), 1e-300), 0.0, 1.0))
 
 
 def heldout_position(fitted: Fitted, leave: int | None = None) -> float:

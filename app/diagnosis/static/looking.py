@@ -6,7 +6,7 @@ import numpy as np
 
 from app.diagnosis.static.fit import Fitted, Term
 from app.diagnosis.static.library import Candidate, Library
-from app.diagnosis.static.score import Basis, Scores, score_library
+from app.diagnosis.static.score import Basis, Scores, basis, score_library
 
 #: Share of an effect's signature that base, tool and the rest must leave for it to be named.
 LEAST_VISIBLE = 0.05
@@ -56,3 +56,15 @@ def without(fitted: Fitted, *indices: int) -> tuple[np.ndarray, np.ndarray]:
         keep[where] = False
         white += fitted.jacobian[:, where] @ fitted.terms[index].values
     return fitted.jacobian[:, keep], white
+
+
+def visible_share(fitted: Fitted, index: int) -> float:
+    """Share of the term's signature that nothing else in the fit can imitate."""
+    where = fitted.slices[index]
+    block = fitted.jacobian[:, where] @ fitted.terms[index].values
+    if not np.any(block):
+        block = fitted.jacobian[:, where].sum(axis=1)
+    keep = np.ones(fitted.jacobian.shape[1], bool)
+    keep[where] = False
+    rest = basis(fitted.jacobian[:, keep]).project(block[:, None])[:, 0]
+    return float(np.clip(np.linalg.norm(rest) / max(float(np.linalg.norm(block)), 1e-300), 0.0, 1.0))

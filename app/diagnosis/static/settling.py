@@ -8,7 +8,15 @@ import numpy as np
 
 from app.diagnosis.static.fit import Fitted, Term, fit
 from app.diagnosis.static.library import Candidate, library
-from app.diagnosis.static.looking import LEAST_VISIBLE, at_bound, key_of, new_term, score_all, without
+from app.diagnosis.static.looking import (
+    LEAST_VISIBLE,
+    at_bound,
+    key_of,
+    new_term,
+    score_all,
+    visible_share,
+    without,
+)
 from app.diagnosis.static.pairs import rival_pairs
 from app.diagnosis.static.score import Basis, basis, significance
 
@@ -92,6 +100,8 @@ def exchanged(now: Fitted, wanted: tuple[Candidate, ...]) -> Fitted | None:
             for index, candidate in zip(pair, (rivals.first, rivals.second), strict=True):
                 terms[index] = new_term(candidate, now)
             trial = fit(now.recording, now.setup, tuple(terms), now.weights, held=now.held)
-            if not any(at_bound(trial, i) for i in pair) and trial.bic < now.bic - EXCHANGE:
+            # Each of the two may be seen well beside the other terms and hardly at all beside its companion.
+            seen = all(visible_share(trial, i) >= LEAST_VISIBLE and not at_bound(trial, i) for i in pair)
+            if seen and trial.bic < now.bic - EXCHANGE:
                 return trial
     return None

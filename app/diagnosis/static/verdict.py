@@ -7,6 +7,7 @@ import time as clock
 import msgspec
 
 from app.diagnosis.result import Diagnosis, Finding, Leftover, Verdict
+from app.diagnosis.static.alternatives import overruled
 from app.diagnosis.static.as_built import spread_of
 from app.diagnosis.static.convention_findings import convention_findings
 from app.diagnosis.static.evidence import evidence_of
@@ -41,11 +42,13 @@ def conclude(robot: RobotModel, outcome: Outcome, tick, began: float) -> Diagnos
     if not plan.sound or plan.withheld:
         findings = strong(findings)
     after = quality(found)
-    findings = (*convention_findings(outcome, after), *findings)
+    standing = tuple(f for f in findings if not overruled(f.alternatives))
+    contested = len(standing) < len(findings)
+    findings = (*convention_findings(outcome, after), *standing)
     known = known_noise(recording)
     noise = noise_of(found.recording, known, found)
     excess = beyond_noise(found, known)
-    left = hopeless or excess or _structure(plan, findings)
+    left = hopeless or excess or contested or _structure(plan, findings)
     said = {(f.effect, *sorted(f.where.items())) for f in findings}
     kept = {id(t) for t in found.terms if (t.tacit and not hopeless) or _label(t) in said}
     model = saved_model(found, robot.name, recording.file, outcome.written, kept)
@@ -60,7 +63,7 @@ def conclude(robot: RobotModel, outcome: Outcome, tick, began: float) -> Diagnos
         after=after,
         findings=findings,
         outliers=tuple(int(r) for r in recording.rows[outcome.outliers]),
-        leftover=leftover_said(plan, hopeless or excess),
+        leftover=leftover_said(plan, hopeless or excess or contested),
         next_poses=next_poses(robot, found, findings, wanted),
         seconds=clock.perf_counter() - began,
         notes=(*recording.notes, *remarks(outcome, noise, hopeless, excess)),

@@ -3,7 +3,9 @@
 import numpy as np
 import pytest
 
+from app.diagnosis.result import Alternative
 from app.diagnosis.static import diagnose
+from app.diagnosis.static.alternatives import overruled
 from tests.diagnosis.static.simulating import poses, term, tracker_rows, write_tracker
 
 ROWS = 90
@@ -51,3 +53,8 @@ def test_angles_that_were_read_before_the_arm_stopped_are_named(arm, tmp_path):
     assert [f.effect for f in found.findings] == ["early_reading"]
     share = found.findings[0].parameters[0]
     assert abs(share.value - 4e-4) < 4.0 * share.std
+
+
+@pytest.mark.parametrize(("delta", "stands"), [(-20.0, False), (-1.0, True), (4.0, True)])
+def test_a_name_falls_when_something_else_explains_clearly_better(delta, stands):
+    assert overruled((Alternative("joint_coupling", {"joint": 2, "source_joint": 5}, delta),)) is not stands
