@@ -104,7 +104,8 @@ class _View:
             seed=int(pendant.rng.integers(_SPREAD)),
             exam=exam,
         )
-        look(pendant.client.camera, _whole(self._run.drawn))
+        camera = pendant.client.camera
+        look(camera, _whole(self._run.drawn, camera.aspect))
         self._intro.visible = self._setup.visible = False
         self._work.visible = True
         self._close_button.visible = exam.free
@@ -230,14 +231,14 @@ class _View:
         self._drop()
 
 
-def _whole(cell: TrackerCell) -> tuple[np.ndarray, np.ndarray]:
-    """Eye and centre from which both arms and the tracker are seen."""
+def _whole(cell: TrackerCell, aspect: float) -> tuple[np.ndarray, np.ndarray]:
+    """Eye and centre from which both arms, their circles and the tracker are seen in a window of this shape."""
     places = np.array(
         [*(arm.T_world_base.position for arm in cell.arms), cell.tracker.T_world_tracker.position]
     )
     low, high = places.min(axis=0), places.max(axis=0)
     centre = (low + high) / 2.0
-    far = 1.35 * float(np.linalg.norm(high - low)) + 0.6
+    far = (1.35 * float(np.linalg.norm(high - low)) + 0.6) / min(0.95 * aspect, 1.0)
     return centre + far * np.array([-0.42, -0.74, 0.52]), centre
 
 
