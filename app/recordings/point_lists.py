@@ -32,6 +32,7 @@ UNITS = {
     "metres": "m",
 }
 _UNIT_LINE = re.compile(r"\b(?:units?|einheit(?:en)?)\b[^A-Za-z]*([A-Za-z]+)", re.IGNORECASE)
+_AXIS_UNIT = re.compile(r"\bX\s*[\[(]\s*([A-Za-z]+)\s*[\])]", re.IGNORECASE)
 _IN_NAME = re.compile(r"[\[(]\s*([A-Za-z]+)\s*[\])]|[\s_]([A-Za-z]+)$")
 _NUMBER = re.compile(r"[+-]?(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][+-]?\d+)?\Z")
 _OWN = re.compile(r"(?:^|,)\s*(?:q[1-8](?:_|,|$)|role\b|axis\b|t_s\b|[xyz]_m{1,2}\b)")
@@ -65,9 +66,9 @@ def read_text(path: Path) -> str:
 
 
 def unit_said(lines: Sequence[str]) -> str | None:
-    """The unit a line such as `Units: mm` states, or None."""
+    """The unit a line such as `Units: mm` or `X (mm), Y (mm), Z (mm)` states, or None."""
     for line in lines:
-        match = _UNIT_LINE.search(line)
+        match = _UNIT_LINE.search(line) or _AXIS_UNIT.search(line)
         if match and match.group(1).lower() in UNITS:
             return UNITS[match.group(1).lower()]
     return None

@@ -238,7 +238,7 @@ def _whole(cell: TrackerCell, aspect: float) -> tuple[np.ndarray, np.ndarray]:
     )
     low, high = places.min(axis=0), places.max(axis=0)
     centre = (low + high) / 2.0
-    far = (1.35 * float(np.linalg.norm(high - low)) + 0.6) / min(0.95 * aspect, 1.0)
+    far = (1.35 * float(np.linalg.norm(high - low)) + 0.6) / min(1.6 * aspect, 1.0)
     return centre + far * np.array([-0.42, -0.74, 0.52]), centre
 
 

@@ -63,6 +63,24 @@ def test_spatial_analyzer_points_keep_their_full_names_and_their_rows(tmp_path):
     assert table.rows.tolist() == [4, 5, 6, 7, 8, 9]
 
 
+@pytest.mark.parametrize(
+    "line, name",
+    [
+        ("A,Axis1,p1,100.1,200.2,300.3", "A::Axis1::p1"),
+        ("Axis1 p1 100.1 200.2 300.3", "Axis1::p1"),
+        ("p1,1.001000000000e+02,2.002e+02,3.003e+02", "p1"),
+        ('"A","Axis 1","p 1",100.1,200.2,300.3', "A::Axis 1::p 1"),
+        ("A,Axis1,p1,100.1,200.2,300.3,0.012,0.013,0.020,03/05/2019 10:11:12", "A::Axis1::p1"),
+    ],
+)
+def test_every_naming_of_spatial_analyzer_is_read_with_the_unit_of_its_axis_comment(tmp_path, line, name):
+    other = line.replace("p1", "p2").replace("p 1", "p 2")
+    head = "// SpatialAnalyzer 2019.02.14\n// Frame: A::WORLD\n// X (mm), Y (mm), Z (mm)\n"
+    table = _read(tmp_path, f"{head}{line}\n{other}\n")
+    assert table.text("name")[0] == name
+    np.testing.assert_allclose(table.numbers("xyz")[0], [0.1001, 0.2002, 0.3003])
+
+
 def test_names_joined_by_colons_and_trailing_columns_are_understood_once_the_unit_is_said(tmp_path):
     table = _read(tmp_path, WITH_COLONS)
     with pytest.raises(UnitError, match="x_mm or x_m"):
