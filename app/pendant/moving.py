@@ -77,7 +77,7 @@ class Moving(Inputs):
         self.jogging.must_not_be_stopped()
         self.worker.halt("move")
         stop = self.advance(np.clip(q, self.world.robot.lower, self.world.robot.upper))
-        self.worker.animate("settle", self._settle_later())
+        self.worker.later("settle", _SETTLED, self.settle)
         if stop is not None:
             self.say("warning", words(stop, self.t, self.language))
 
@@ -114,8 +114,8 @@ class Moving(Inputs):
         if now - self._numbers_at >= _SHOWN:
             self._numbers_at = now
             self.worker.latest("numbers", self.page.numbers)  # after the scene, not before it
-        else:
-            self.worker.animate("numbers", self._numbers_later())
+        elif not self.worker.waits("numbers"):
+            self.worker.later("numbers", _SHOWN, self._numbers_now)
 
     def settle(self) -> None:
         """Writes down where the arm stands, where that is not yet done."""
@@ -140,11 +140,6 @@ class Moving(Inputs):
         self.settle()
         self.post(lambda: arrived(-1))  # as a job of its own: by then the motion is over
 
-    def _settle_later(self) -> Iterator[None]:
-        yield from motion.pause(_SETTLED)
-        self.settle()
-
-    def _numbers_later(self) -> Iterator[None]:
-        yield from motion.pause(_SHOWN)
+    def _numbers_now(self) -> None:
         self._numbers_at = time.monotonic()
         self.page.numbers()

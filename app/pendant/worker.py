@@ -36,6 +36,7 @@ class Worker:
         self._around = around
         self._queue: deque[_Entry] = deque()
         self._motions: dict[str, Iterator[None]] = {}
+        self._timers: dict[str, tuple[float, Job]] = {}
         self._wake = threading.Condition()
         self._stopped = False
         self._busy = False
@@ -71,11 +72,22 @@ class Worker:
             self._motions[name] = steps
             self._wake.notify()
 
-    def halt(self, name: str | None = None) -> None:
-        """Ends one motion, or all."""
+    def later(self, name: str, seconds: float, job: Job) -> None:
+        """Does `job` once, in so many seconds; what waits under the same name is given up for it."""
         with self._wake:
-            for key in [name] if name is not None else list(self._motions):
+            self._timers[name] = (time.monotonic() + seconds, job)
+            self._wake.notify()
+
+    def waits(self, name: str) -> bool:
+        """True while something waits for its time under this name."""
+        return name in self._timers
+
+    def halt(self, name: str | None = None) -> None:
+        """Ends one motion or what waits under its name, or all."""
+        with self._wake:
+            for key in [name] if name is not None else [*self._motions, *self._timers]:
                 self._motions.pop(key, None)
+                self._timers.pop(key, None)
 
     def running(self, name: str) -> bool:
         """True while the motion of this name runs."""
@@ -86,7 +98,7 @@ class Worker:
         end = time.monotonic() + timeout
         while time.monotonic() < end:
             with self._wake:
-                if not self._queue and not self._busy and not self._motions:
+                if not (self._queue or self._busy or self._motions or self._timers):
                     return True
             time.sleep(0.005)
         return False
@@ -97,6 +109,7 @@ class Worker:
             self._stopped = True
             self._queue.clear()
             self._motions.clear()
+            self._timers.clear()
             self._wake.notify()
         if threading.current_thread() is not self._thread:
             self._thread.join(timeout=5.0)
@@ -106,15 +119,18 @@ class Worker:
         while True:
             with self._wake:
                 while not self._queue and not self._stopped:
-                    if self._motions:
-                        wait = next_tick - time.monotonic()
-                        if wait <= 0:
-                            break
+                    due = [when for when, _ in self._timers.values()] + [next_tick] * bool(self._motions)
+                    if not due:
+                        self._wake.wait()
+                    elif (wait := min(due) - time.monotonic()) > 0:
                         self._wake.wait(wait)
                     else:
-                        self._wake.wait()
+                        break
                 if self._stopped:
                     return
+                now = time.monotonic()
+                for name in [name for name, (when, _) in self._timers.items() if when <= now]:
+                    self._queue.append(_Entry(self._timers.pop(name)[1], None))
                 job = self._queue.popleft().job if self._queue else None
                 self._busy = True
             if job is not None:

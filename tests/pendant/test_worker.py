@@ -118,3 +118,20 @@ def test_a_stopped_worker_does_nothing_any_more(worker):
     threading.Timer(0.05, gate.set).start()
     worker.stop()
     assert done == []
+
+
+def test_what_waits_for_its_time_is_done_once_and_given_up_for_a_newer_one(worker):
+    done = []
+    worker.later("settle", 0.05, lambda: done.append("old"))
+    worker.later("settle", 0.1, lambda: done.append("new"))
+    worker.later("numbers", 0.02, lambda: done.append("numbers"))
+    assert worker.waits("settle") and not worker.waits("nothing") and done == []
+    assert worker.idle()
+    assert done == ["numbers", "new"] and not worker.waits("settle")
+
+
+def test_what_waits_can_be_given_up(worker):
+    done = []
+    worker.later("settle", 0.05, lambda: done.append("settled"))
+    worker.halt("settle")
+    assert worker.idle() and not done
