@@ -15,6 +15,9 @@ from app.session.refusals import enough_touches, refusal
 from app.session.state import SessionState, mode_named
 from app.session.steps.setup import checked_joints
 
+#: Roles of which a mode takes as many as it is asked for.
+_COUNTED = frozenset({"touch", "plane"})
+
 
 def known_step(state: SessionState, key: str) -> Step:
     """The wizard's row of this key; raises ActionRefusedError."""
@@ -90,7 +93,7 @@ def _load(state: SessionState, action: LoadPoints) -> SessionState:
     if action.method not in METHODS:
         raise refusal("unknown", reason=f"unknown estimator {action.method!r}")
     points = loaded_points(action)
-    touches = sum("touch" in capture.roles for capture in points.captures)
+    touches = sum(bool(_COUNTED & set(capture.roles)) for capture in points.captures)
     if touches < mode.least_touches:
         enough_touches(touches)
     if not mode.least_touches <= touches <= mode.most_touches:

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 
 _NOISE = from_mm(0.1)
 _SEEDS = 6  # draws of a demonstration that are tried: the first the arm can go through wholly is shown
+_TRIES = 12  # other postures from which a point is tried that lies far from the one before
 _REST = 2.6  # seconds a caption is left to be read
 _DIRECT = "direct"
 
@@ -149,9 +150,11 @@ def reachable(robot: RobotModel, mode: Mode) -> tuple[Demo, list[np.ndarray | No
 
 def _stops(robot: RobotModel, captures: tuple[Capture, ...]) -> list[np.ndarray | None]:
     stops: list[np.ndarray | None] = []
-    q = robot.home
+    q, rng = robot.home, np.random.default_rng(0)
+    others = rng.uniform(robot.lower, robot.upper, (_TRIES, robot.joint_count)) / 2.0
     for capture in captures:
-        tried = (solve_ik(robot, capture.T_base_flange, start, max_steps=200) for start in (q, robot.home))
+        starts = (q, robot.home, *others)
+        tried = (solve_ik(robot, capture.T_base_flange, start, max_steps=200) for start in starts)
         found = next((result for result in tried if result.reached), None)
         stops.append(None if found is None else found.q)
         q = q if found is None else found.q
