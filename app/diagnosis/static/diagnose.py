@@ -67,13 +67,12 @@ def search(written: Rewritten, held, seed: int, tick) -> Outcome:
     rng = np.random.default_rng(seed)
     recording = written.recording
     kept = np.ones(recording.size, bool)
-    before = plain_fit(recording, held)
+    before = written.plain
     out = outlier_rows(before)
     plan = None
     for _ in range(2):
         kept = ~out
-        part = recording if kept.all() else renumbered(recording.subset(kept))
-        before = plain_fit(part, held)
+        before = written.plain if kept.all() else plain_fit(renumbered(recording.subset(kept)), held)
         plan = explore(before, rng, tick)
         fitted = plan.found.fitted
         whole_setup = fitted.recording.target_names == recording.target_names

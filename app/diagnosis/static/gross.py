@@ -37,20 +37,22 @@ class Rewritten:
     Args:
         found: conventions undone, in order, each with those that would do as well.
         before: the plain fit to the recording as it was written; None where nothing was undone.
+        plain: the plain fit to `recording`.
     """
 
     recording: StaticRecording
     found: tuple[tuple[Convention, tuple[Convention, ...]], ...]
     before: Fitted | None
+    plain: Fitted
 
 
 def rewritten(recording: StaticRecording, robot: RobotModel, held: tuple[Term, ...]) -> Rewritten:
     """Undoes wrong conventions, the one that helps most first, as long as each takes most of the misfit away."""
     found: list[tuple[Convention, tuple[Convention, ...]]] = []
-    first = None
+    first = plain = plain_fit(recording, held)
     for _ in range(_MOST):
-        plain = plain_fit(recording, held)
-        first = first or plain
+        if _misfit(plain) < GROSS:
+            break  # without its strays it fits better still
         before = _misfit(_without_strays(recording, held))
         sigma = known_noise(recording).sigma
         if before < GROSS or (sigma is not None and before < GROSS_SIGMA * sigma):
@@ -69,7 +71,8 @@ def rewritten(recording: StaticRecording, robot: RobotModel, held: tuple[Term, .
         alike = tuple(c for rms, c in tried if c is not chosen and rms < _ALIKE * tried[0][0])
         found.append((chosen, alike))
         recording = chosen.undone(recording, robot)
-    return Rewritten(recording, tuple(found), first if found else None)
+        plain = plain_fit(recording, held)
+    return Rewritten(recording, tuple(found), first if found else None, plain)
 
 
 def _without_strays(recording: StaticRecording, held: tuple[Term, ...]) -> Fitted:
