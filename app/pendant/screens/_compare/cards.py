@@ -16,6 +16,7 @@ from app.diagnosis.report.wording import (
     effect_title,
     fall,
     finding_sentence,
+    joint_values,
     measure,
     noise_source,
     parameter_name,
@@ -181,6 +182,15 @@ def _card(pendant: Pendant, number: int, f: Finding, unit: str) -> str:
         testid=f"compare-finding-{number}",
         style="border-left:4px solid #1866ad;margin:7px 8px;padding:5px 4px 5px 10px",
     )
+
+
+def next_poses(pendant: Pendant, loaded: Loaded) -> str:
+    """The joints of every proposed pose."""
+    if loaded.diagnosis is None:
+        return ""
+    slides = [joint.prismatic for joint in loaded.robot.joints]
+    said = "".join(f"<div>{escape(joint_values(q, slides))}</div>" for q in loaded.diagnosis.next_poses)
+    return html.block(said, testid="compare-poses")
 
 
 def truth(pendant: Pendant, hidden: Sequence[dict]) -> str:

@@ -30,7 +30,13 @@ class Outcome:
         pendant.clicked(self._apply, put_in)
         self._findings = gui.add_html("", visible=False)
         self._next = gui.add_checkbox(t("compare.next"), False, visible=False, hint=t("compare.next_hint"))
-        pendant.changed(self._next, "compare.next", next_poses)
+        self._poses = gui.add_html("", visible=False)
+
+        def toggled(on: bool) -> None:
+            self._poses.visible = on
+            next_poses(on)
+
+        pendant.changed(self._next, "compare.next", toggled)
         self._bars = gui.add_html("", visible=False)
         self._notes_folder = gui.add_folder(t("compare.notes"), visible=False, expand_by_default=False)
         with self._notes_folder:
@@ -44,7 +50,7 @@ class Outcome:
         self._judged.visible = loaded.judged is not None
         self._apply.visible = loaded.change is not None
         self._next.visible = found is not None and bool(found.next_poses)
-        self._next.value = False
+        self._next.value = self._poses.visible = False
         self._notes_folder.visible = found is not None and bool(found.notes)
         self.switched(loaded.applied)
         if loaded.judged is not None:
@@ -52,6 +58,7 @@ class Outcome:
         if found is not None:
             self._verdict.content = cards.verdict(pendant, found)
             self._findings.content = cards.findings(pendant, found)
+            self._poses.content = cards.next_poses(pendant, loaded)
             self._bars.content = plots.bars(found, pendant.language)
             self._notes.content = cards.notes(pendant, found)
 
@@ -61,6 +68,6 @@ class Outcome:
 
     def hide(self) -> None:
         for widget in (
-            self._verdict, self._judged, self._apply, self._findings, self._next, self._bars, self._notes_folder,
+            self._verdict, self._judged, self._apply, self._findings, self._next, self._poses, self._bars, self._notes_folder,
         ):  # fmt: skip
             widget.visible = False
