@@ -68,6 +68,7 @@ class Outcome:
 
     def hide(self) -> None:
         for widget in (
-            self._verdict, self._judged, self._apply, self._findings, self._next, self._poses, self._bars, self._notes_folder,
+            self._verdict, self._judged, self._apply, self._findings, self._next, self._poses,
+            self._bars, self._notes_folder,
         ):  # fmt: skip
             widget.visible = False
