@@ -25,7 +25,7 @@ from app.simulation.route import route
 from app.simulation.world import World
 
 _SETTLED = 0.5  # seconds without motion after which where the arm stands is written down
-_SHOWN = 0.1  # seconds between two updates of numbers while the arm moves
+_SHOWN = 0.2  # seconds between two updates of numbers while the arm moves: they cost more than the arm itself
 
 
 class Moving(Inputs):

@@ -1,7 +1,7 @@
 """One file a tab of the left panel: where the arm is, and what is looked at.
 
 The same shape as a screen (app/pendant/screens), with the object named `PANEL`. A view may have `numbers()`, which is
-called about ten times a second while the arm moves.
+called about five times a second while the arm moves.
 """
 
 from __future__ import annotations

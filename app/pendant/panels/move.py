@@ -74,7 +74,9 @@ class _View:
         for k, (slider, joint) in enumerate(zip(self._sliders, pendant.model.joints, strict=True)):
             if now - self._touched[k] > _OWN:
                 value = mm(pendant.q[k]) if joint.prismatic else deg(pendant.q[k])
-                slider.value = float(np.clip(round(float(value), 1), slider.min, slider.max))
+                shown = float(np.clip(round(float(value), 1), slider.min, slider.max))
+                if slider.value != shown:  # setting it wakes the event loop, changed or not
+                    slider.value = shown
         state = pendant.session.state
         flange = pendant.world.shown_flange(pendant.q)
         pose = flange @ state.tool.T_flange_tool if state.tool else flange
