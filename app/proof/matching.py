@@ -75,10 +75,14 @@ def place_of(where: Where) -> tuple[str, Any] | None:
 def at_place(where: Where, truth: Mapping[str, Any]) -> bool:
     """True where this is the truth's place, or an alias's."""
     said = place_of(where)
-    if said is None:
+    if said is None and not where.get("driver"):
         return False
     true = [truth["where"], *(alias["where"] for alias in truth.get("lookalikes", ()))]
-    return any(said == place_of(w) and _times_match(where, w) for w in true)
+    # What acts on the whole arm (late torques) has its driver for a place.
+    return any(
+        said == place_of(w) and _times_match(where, w) and (said or where["driver"] == w.get("driver"))
+        for w in true
+    )
 
 
 def in_set(findings: Sequence[Mapping[str, Any]], truth: Mapping[str, Any]) -> bool:

@@ -29,7 +29,7 @@ class Smoothing:
         half_widths: of the window in samples, one a joint.
         noise: of the signal.
         step: [s].
-        acceleration: one-sigma noise left on the acceleration [rad/s^2], one a joint.
+        acceleration: error left on the acceleration, noise and bias [rad/s^2], one a joint.
     """
 
     half_widths: tuple[int, ...]
@@ -57,13 +57,13 @@ def noise_of(signal: np.ndarray) -> float:
     return float(np.sqrt(np.mean(kept**2))) if len(kept) else 0.0
 
 
-def choose_half_width(signal: np.ndarray, step: float, derivative: int) -> int:
-    """The window with the smallest estimated risk of the `derivative`-th derivative; signal (m,)."""
+def choose_half_width(signal: np.ndarray, step: float, derivative: int) -> tuple[int, float]:
+    """The window with the smallest estimated risk of the `derivative`-th derivative, and that risk; signal (m,)."""
     probe = signal[:_PROBE]
     sigma = noise_of(probe)
     widths = [h for h in HALF_WIDTHS if 2 * h + 1 <= len(probe) // 2]
     if not widths:
-        return 2
+        return 2, 0.0
     first, first_c = np.zeros(0), np.zeros(1)
     risks = []
     edge = HALF_WIDTHS[-1] if len(probe) > 4 * HALF_WIDTHS[-1] else widths[-1]
@@ -78,7 +78,8 @@ def choose_half_width(signal: np.ndarray, step: float, derivative: int) -> int:
         pad[middle : middle + len(first_c)] = first_c
         bias = np.mean((d - first)[inner] ** 2) - sigma**2 * np.sum((c - pad) ** 2)
         risks.append(max(bias, 0.0) + sigma**2 * np.sum(c**2))
-    return widths[int(np.argmin(risks))]
+    best = int(np.argmin(risks))
+    return widths[best], float(risks[best])
 
 
 @lru_cache(maxsize=64)
@@ -105,12 +106,12 @@ def differentiate(
     longest = max(segments, key=lambda s: s.stop - s.start)
     even_q = _even(t[longest], q[longest], step)
     n = q.shape[1]
-    widths = [choose_half_width(even_q[:, j], step, 2) for j in range(n)]
+    widths, risks = zip(*(choose_half_width(even_q[:, j], step, 2) for j in range(n)), strict=True)
     noise = [noise_of(even_q[:, j]) for j in range(n)]
     source, widths_qd, noise_qd = "position", widths, noise
     if qd is not None:
         even_qd = _even(t[longest], qd[longest], step)
-        widths_qd = [choose_half_width(even_qd[:, j], step, 1) for j in range(n)]
+        widths_qd, risks = zip(*(choose_half_width(even_qd[:, j], step, 1) for j in range(n)), strict=True)
         noise_qd = [noise_of(even_qd[:, j]) for j in range(n)]
         source = "recorded speed"
     out_q, out_qd, out_qdd = np.empty_like(q), np.empty_like(q), np.empty_like(q)
@@ -134,12 +135,8 @@ def differentiate(
             )
     if qd is not None:
         widths, noise = widths_qd, noise_qd
-    order = 2 if qd is None else 1
-    left = [
-        s * float(np.linalg.norm(_coefficients(h, order))) / step**order
-        for h, s in zip(widths, noise, strict=True)
-    ]
-    return out_q, out_qd, out_qdd, Smoothing(tuple(widths), tuple(noise), step, source, tuple(left))
+    left = tuple(float(np.sqrt(r)) for r in risks)
+    return out_q, out_qd, out_qdd, Smoothing(tuple(widths), tuple(noise), step, source, left)
 
 
 def _is_even(t: np.ndarray, step: float) -> bool:

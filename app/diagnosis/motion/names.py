@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from app.diagnosis.motion.exact import ExactFit
+from app.diagnosis.motion.imitation import imitators
 from app.diagnosis.motion.remains import Remains, remains_of
 from app.diagnosis.motion.scoring import Board, minus_log_p, null_scores, score_all
 from app.diagnosis.motion.search import LEVEL, Search, Term
@@ -20,6 +21,7 @@ from app.diagnosis.motion.system import Group
 
 #: A curve that takes less than this share off a joint's noise is below what smoothing and averaging may leave.
 MATERIAL = 0.01
+ENDS = 0.05  # share of a log in which a change that lasts has nothing to be compared with
 SHADOW = 0.05  # share of a law's own gain that a free curve may add before the name is withheld
 BLUR = 0.03  # relative uncertainty of a ripple's order beyond which it is no period
 SWINGS = 1.5  # a ripple shows at least so many
@@ -49,11 +51,14 @@ class Judgement:
     p_values: list[float]
 
 
-def judge(search: Search, fit: ExactFit, stated: np.ndarray | None, done: dict[int, np.ndarray]) -> Judgement:
+def judge(
+    search: Search, fit: ExactFit, stated: np.ndarray | None, moved: np.ndarray, done: dict[int, np.ndarray]
+) -> Judgement:
     """Tests every name, and what is left over.
 
     Args:
-        stated: (n,) stated noise of the pooled torques [Nm], or None.
+        stated: (n,) stated noise of the pooled torques [Nm], that of the motion in it, or None.
+        moved: (n,) what errors of the motion alone make of it [Nm].
         done: term -> what the samples were corrected by before its coefficients were fitted.
     """
     selected = [t.group for t in fit.terms]
@@ -69,7 +74,7 @@ def judge(search: Search, fit: ExactFit, stated: np.ndarray | None, done: dict[i
     if small or board.score[best] < np.log10(len(board) / LEVEL):
         p_value = max(p_value, 0.05)
     where = dict(board[best].group.where)
-    remains = remains_of(search.system, fit.solution, stated)
+    remains = remains_of(search.system, fit.solution, stated, moved, fit.offset)
     reasons = list(remains.sentences())
     worst = remains.worst()
     if worst is not None and p_value > LEVEL:
@@ -86,6 +91,8 @@ def judge(search: Search, fit: ExactFit, stated: np.ndarray | None, done: dict[i
         if i >= search.known and p > LEVEL and not why[i]:
             why[i] = "signs turned at random explain as much"
     _own_angle(fit.terms, why)
+    for i, reason in imitators(search, fit.terms).items():
+        why[i] = why[i] or reason
     _followers(fit.terms, gains, why)
     for term, reason in zip(fit.terms, why, strict=True):
         if reason:
@@ -113,6 +120,13 @@ def _objection(
         return f"a free curve of {driver} explains more than it"
     if group.joint is not None and remains.energy[group.joint] > gain:
         return "more is left over on this joint than it explains"
+    if group.joint is None and float(remains.energy.sum()) > gain:
+        return "more is left over than it explains"
+    if law.windowed and "to_s" not in group.where:
+        t = search.system.samples.t
+        before = (group.where["from_s"] - t[0]) / (t[-1] - t[0])
+        if not ENDS < before < 1 - ENDS:
+            return "too little of the log lies before or after it"
     if law.key == "torque_ripple":
         order, names = values["order"], list(values)
         std = float(np.sqrt(max(covariance[names.index("order"), names.index("order")], 0.0)))

@@ -33,7 +33,7 @@ def whiteners_of(
 
 
 def noise_of_motion(robot: RobotModel, samples: Samples) -> np.ndarray:
-    """(n,) [Nm] what the noise left on the accelerations does to the description's torques."""
+    """(n,) [Nm] what the errors left on the accelerations do to the description's torques."""
     state, n = samples.state, samples.state.joints
     some = np.unique(np.linspace(0, len(state.t) - 1, POSES).astype(int))
     q, still = state.q[some], np.zeros((len(some), n))

@@ -24,10 +24,13 @@ SHAPELY = 0.03  # share of its gain by which a law with a shape must beat one wi
 BETTER = 2.0  # an exchange must be worth this much
 #: Dry and viscous friction are in every joint: another law in their place must be a hundred times likelier.
 RARE = 9.2
+OVERLAP = 0.7  # of both windows together, beyond which two events are one
+SAME_TIME = 0.5  # s between two changes that are one
 
 
 def refine(search: Search, terms: list[Term], stay: int = 0) -> list[Term]:
     """Exchanges laws and moves events until nothing changes; the first `stay` terms stay as they are."""
+    terms = merge(terms, stay)
     for _ in range(PASSES):
         before = [t.group for t in terms]
         terms = simplify(search, exchange(search, relocate(search, terms, stay), stay), stay)
@@ -114,6 +117,7 @@ def relocate(search: Search, terms: list[Term], stay: int = 0) -> list[Term]:
         others = [t.group for k, t in enumerate(terms) if k != i]
         near = Candidate(base, base.size, terms[i].visible, _blocks_of(search.system, group))
         moved = located(search.system, search.prior, others, near, group.law.key == "contact")
+        moved = _inside_a_window(search, others, moved)
         gains = [search.losses_without([*others, g])[-1] for g in (group, moved)]
         if moved.where == group.where or gains[1] < gains[0] + BETTER:
             search.system.remove(moved)
@@ -126,6 +130,48 @@ def _forget(system: System, tried: Group, grid: Group) -> None:
     """A law bent from the grid that earned no place."""
     if tried is not grid:
         system.remove(tried)
+
+
+def _inside_a_window(search: Search, others: list[Group], event: Group) -> Group:
+    """The event with its times moved into the middle of a window of samples, where that fits better."""
+    system, law = search.system, event.law
+    if system.samples.points == 1 or law is None:
+        return event
+    best = search.losses_without([*others, event])[-1]
+    for name in ("from_s", "to_s"):
+        for share in (-0.5, 0.5):
+            if name not in event.where:
+                continue
+            where = {**event.where, name: event.where[name] + share * system.samples.step}
+            columns = system.samples.pool(law.columns(system.samples.state, where, event.shape))
+            tried = system.append(replace(event, where=where), columns)
+            gain = search.losses_without([*others, tried])[-1]
+            if gain > best + BETTER:
+                event, best = tried, gain
+                break
+            system.remove(tried)
+    return event
+
+
+def merge(terms: list[Term], stay: int = 0) -> list[Term]:
+    """One of two events where both are at the same time: the second only mends the first one's edges."""
+    out: list[Term] = []
+    for i, term in enumerate(terms):
+        again = i >= stay and any(_at_once(term.group, t.group) for t in out)
+        if not again:
+            out.append(term)
+    return out
+
+
+def _at_once(one: Group, other: Group) -> bool:
+    if one.law is None or one.law is not other.law or not one.law.windowed:
+        return False
+    spans = [(g.where["from_s"], g.where.get("to_s", np.inf)) for g in (one, other)]
+    starts, ends = np.array(spans).T
+    if np.isinf(ends).any():
+        return bool(np.ptp(starts) < SAME_TIME)
+    common = ends.min() - starts.max()
+    return bool(common > OVERLAP * (ends.max() - starts.min()))
 
 
 def _blocks_of(system: System, group: Group) -> tuple[int, int]:

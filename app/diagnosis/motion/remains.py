@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from app.diagnosis.motion.errors import raw_columns
 from app.diagnosis.motion.scoring import Solution
 from app.diagnosis.motion.system import System
 
@@ -53,13 +54,17 @@ class Remains:
         return out
 
 
-def remains_of(system: System, solution: Solution, stated: np.ndarray | None) -> Remains:
+def remains_of(
+    system: System, solution: Solution, stated: np.ndarray | None, moved: np.ndarray, moved_out: np.ndarray
+) -> Remains:
     """Compares the residual with the stated noise, and looks for a memory in it.
 
     Args:
         stated: (n,) one-sigma of a pooled torque [Nm].
+        moved: (n,) part of it that comes from errors of the motion: no curve takes it up, and a repeat has it too.
+        moved_out: (M, n) torque [Nm] of laws that the linear model has on the other side.
     """
-    n = system.joints
+    n, columns = system.joints, raw_columns(system, solution.selected)
     ratio, memory, energy = np.full(n, np.nan), np.zeros(n), np.zeros(n)
     above = np.full(n, np.nan)
     for j, (part, col, pos, whitener) in enumerate(
@@ -76,11 +81,15 @@ def remains_of(system: System, solution: Solution, stated: np.ndarray | None) ->
         memory[j] = system.samples.step * (0.5 + float(np.sum(np.abs(rho[1:]))))
         free = count / (1 + 2 * float(np.sum(rho[1:] ** 2)))
         if stated is not None:
-            ratio[j] = (spread / stated[j]) ** 2
+            # An autoregression with a long memory promises more than there is: what is there counts.
+            plain = system.samples.y[:, j] - moved_out[:, j] - columns[j] @ solution.theta[pos]
+            size = float(np.sqrt(np.mean(plain[system.samples.usable[:, j]] ** 2)))
+            ratio[j] = (min(spread, size) / stated[j]) ** 2
             if ratio[j] > 1 + EXCESS + _SURE * np.sqrt(2 / free):
                 energy[j] = count * (ratio[j] - 1) * (stated[j] / whitener.sigma) ** 2
-        if level > 1 + ABOVE + _SURE * np.sqrt(2 / count):
-            energy[j] = max(energy[j], count * (level - 1))
+        beyond = level / (1 + (moved[j] / whitener.spread) ** 2)
+        if beyond > 1 + ABOVE + _SURE * np.sqrt(2 / count):
+            energy[j] = max(energy[j], count * (beyond - 1))
             above[j] = level
         if stated is None and memory[j] > max(LONGEST_MEMORY, 6 * system.samples.step):
             energy[j] = max(energy[j], count * (spread / whitener.sigma) ** 2)

@@ -26,7 +26,7 @@ from app.kinematics.dynamics import (
 from app.kinematics.regressor import torque_regressor
 from app.kinematics.robot import GRAVITY
 
-ENOUGH = 2_000  # windows wanted before samples are averaged at all
+ENOUGH = 3_000  # windows wanted before samples are averaged at all
 LARGEST_POOLED = 10_000  # windows the search works on
 RESOLVED = 0.02  # s: no window is longer; speed and acceleration are smoothed over more than that anyway
 CHUNK = 10_000

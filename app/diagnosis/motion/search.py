@@ -86,12 +86,17 @@ class Search:
         """
         terms = list(start)
         refused: set = set()
-        while len(terms) < MOST_TERMS:
+        for _ in range(MOST_TERMS):
+            if len(terms) >= MOST_TERMS:
+                break
             progress(0.35 + 0.4 * len(terms) / (len(terms) + 8), f"search, {len(terms)} found")
             more = self._best(terms, refused)
             if not more:
                 break
-            terms = self.backward([*terms, *more], stay)
+            kept = self.backward([*terms, *more], stay)
+            if len(kept) <= len(terms) and all(t in terms for t in kept):
+                break  # what came in went out again
+            terms = kept
         return terms
 
     def _best(self, terms: list[Term], refused: set) -> list[Term]:

@@ -114,14 +114,13 @@ def examine(
             break
         corrections = new or corrections
     tell(0.85, "names")
-    stated = None
+    stated, moved = None, noise_of_motion(robot, samples)
     if log.stated_noise is not None:
-        moved = noise_of_motion(robot, samples)
         stated = np.sqrt(log.stated_noise**2 / samples.window + moved**2)
     if base and stated is not None:
         stated = None if note.startswith("the reference follows the same") else stated
     done = corrected_by(corrections, first, fit)
-    judgement = judge(search, fit, stated, done)
+    judgement = judge(search, fit, stated, moved, done)
     if log.foreign:
         reason = "the torques do not follow the description at all: another arm, or columns mixed up; nothing is named"
         judgement = replace(judgement, named=[False] * len(fit.terms), reasons=(reason,), leftover_p=1 / 200)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from app.diagnosis.motion import diagnose
 from app.diagnosis.motion.library import laws
 from app.diagnosis.motion.log import read_log
 from app.diagnosis.motion.sampling import motion_of, take_samples
@@ -64,3 +65,13 @@ def test_every_law_explains_itself_in_one_sentence(key, samples):
     sentence = law.explain(where, law.values(np.full(size, 0.1), place.shape))
     assert sentence.endswith(".") and "\n" not in sentence
     assert set(law.values(np.full(size, 0.1), place.shape)) <= set(law.units)
+
+
+def test_a_joint_that_its_friction_pushes_along_is_given_no_name(tmp_path):
+    robot, rng = load_robot("ur10e"), np.random.default_rng(71)
+    run = swing(robot, rng, samples=2000)
+    run.torque[:, 2] -= 5.0 * run.qd[:, 2]
+    measure(run, rng, 0.02, 0.0)
+    found = diagnose(write(run, tmp_path / "log.csv", digits=7), robot)
+    assert not found.findings and found.verdict == "unexplained"
+    assert found.leftover.where["joint"] == 3

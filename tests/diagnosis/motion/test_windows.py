@@ -11,7 +11,7 @@ from tests.diagnosis.motion.simulator import measure, swing, write
 
 
 @pytest.mark.parametrize(
-    ("samples", "rate", "window"), [(3000, 100.0, 1), (4500, 150.0, 2), (12_000, 400.0, 6)]
+    ("samples", "rate", "window"), [(3000, 100.0, 1), (6500, 200.0, 2), (12_000, 400.0, 4)]
 )
 def test_error_and_values_are_those_of_single_samples(tmp_path, samples, rate, window):
     robot, rng = load_robot("ur10e"), np.random.default_rng(61)

@@ -33,7 +33,7 @@ class TorqueConstant(JointLaw):
         return values["scale"] * base[:, joint_of(where)]
 
     def lawful(self, values: Values) -> bool:
-        return values["scale"] > -0.95
+        return -0.6 < values["scale"] < 1.5  # beyond, it is no torque of this joint
 
 
 EFFECT = TorqueConstant()

@@ -1,0 +1,46 @@
+"""Laws that only imitate one whose values no arm can have.
+
+A joint that seems to be pushed along by its friction is not explained by a dozen couplings: where one law with
+an impossible sign does nearly as well as all that was taken in its stead, none of them is named.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from app.diagnosis.motion.scoring import score_all, solve
+
+if TYPE_CHECKING:
+    from app.diagnosis.motion.search import Search, Term
+
+SHARE = 0.7  # of what they explain together
+
+
+def imitators(search: Search, terms: list[Term]) -> dict[int, str]:
+    """Term -> why it may not be named; nothing where signs are free (a change since a reference)."""
+    out: dict[int, str] = {}
+    if search.change:
+        return out
+    for joint in {t.group.joint for t in terms if t.group.joint is not None}:
+        here = [
+            i
+            for i, t in enumerate(terms)
+            if t.group.joint == joint and t.group.law and not t.group.law.common
+        ]
+        if not here:
+            continue
+        others = [t.group for i, t in enumerate(terms) if i not in here]
+        without = solve(search.system, others, search.prior)
+        together = without.rss - solve(search.system, [t.group for t in terms], search.prior).rss
+        tried = [
+            g for g in search.groups if g.joint == joint and g.law and g.law.positive and g not in others
+        ]
+        board = score_all(search.system, without, tried, {}, [], null=False)
+        for index in np.flatnonzero(board.gain > SHARE * together).tolist():
+            group = board[index].group
+            if not search.possible(group, others):
+                reason = f"{group.label} with a sign that no arm has would explain nearly as much"
+                out |= dict.fromkeys(here, reason)
+    return out
