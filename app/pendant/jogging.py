@@ -109,4 +109,4 @@ class Jogging:
         if self._held == jog:
             self._held = None
         self._pendant.settle()
-        self._pendant.page.numbers()
+        self._pendant.post(self._pendant.page.numbers)  # as a job of its own: by then the motion is over

@@ -131,6 +131,7 @@ class Moving(Inputs):
                 self.settle()
                 why = words(way, self.t, self.language)
                 self.say("warning", self.t("message.no_way", why=why))
+                self.post(self.page.numbers)
                 return
             for leg in way:
                 yield from motion.move(self.q.copy(), leg, self.show)
@@ -138,7 +139,8 @@ class Moving(Inputs):
             arrived(number)
             yield from motion.pause(rest)
         self.settle()
-        self.post(lambda: arrived(-1))  # as a job of its own: by then the motion is over
+        self.post(self.page.numbers)  # as jobs of their own: by then the motion is over
+        self.post(lambda: arrived(-1))
 
     def _numbers_now(self) -> None:
         self._numbers_at = time.monotonic()

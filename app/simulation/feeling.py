@@ -23,7 +23,7 @@ PRESS = from_mm(0.3)  # what the force of a touch bends, at most
 _STEP = from_mm(0.4)  # the way is looked at this finely near the spike
 _NEAR = from_mm(80.0)  # farther from the spike's point its sharpened end cannot be met
 _CURVED = 1.3  # a way is longer than its chord
-_STILL = 1e-7  # m: shorter than this is no motion
+_STILL = 1e-5  # m: shorter than this is rounding of the inverse kinematics, and has no direction
 _ALONG = 0.2  # cosine above which a motion counts as going on in the direction of the touch
 
 Felt = Literal["", "touch", "press"]
@@ -48,6 +48,7 @@ class Feeling:
         )
         self._direction: np.ndarray | None = None  # of the touch that stopped the tip
         self._nearing = self._leaving = False
+        self._approach = np.zeros(3)  # the last direction in which it came nearer
         self._at = np.zeros(0)
 
     def leave(self, q: np.ndarray) -> None:
@@ -92,18 +93,22 @@ class Feeling:
     def _stopped(self, moved: np.ndarray, distance: float, now: float, depth: float, deeper: float) -> Felt:
         zone = self._world.contact_distance
         length = float(np.linalg.norm(moved))
+        if length <= _STILL:
+            return ""
         if self._direction is not None:
             if now > zone and now > distance:
                 self._direction = None  # away from the spike: free again
-            elif moved @ self._direction > _ALONG * max(length, _STILL):
+            elif moved @ self._direction > _ALONG * length:
                 return "touch"
         self._leaving = self._leaving and now <= zone
         if (distance <= zone or now <= zone) and not self._leaving:
             if now < distance:
-                self._nearing = True
-            elif self._nearing and length > _STILL:
-                self._direction, self._nearing = moved / length, False
-                return "touch"
+                self._nearing, self._approach = True, moved / length
+            elif self._nearing:
+                self._nearing = False
+                if moved @ self._approach > _ALONG * length:  # not turned back: it would go past
+                    self._direction = self._approach
+                    return "touch"
         else:
             self._nearing = False
         solid = -PRESS if min(now, distance) <= zone else 0.0
