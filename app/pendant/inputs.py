@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+from abc import ABC, abstractmethod
 from collections.abc import Callable
 from typing import Any
 
@@ -11,7 +12,7 @@ import viser
 from app.pendant.worker import Job, Worker
 
 
-class Inputs:
+class Inputs(ABC):
     """The half of a pendant that its widgets speak to."""
 
     worker: Worker
@@ -58,5 +59,6 @@ class Inputs:
 
         threading.Thread(target=run, name="pendant-background", daemon=True).start()
 
+    @abstractmethod
     def _tell(self, error: Exception) -> None:
-        raise NotImplementedError
+        """Tells the operator what failed."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from abc import abstractmethod
 from collections.abc import Callable, Iterator
 from typing import Any
 
@@ -42,13 +43,13 @@ class Moving(Inputs):
     _numbers_at = 0.0
     _guard: Guard | None = None
 
+    @abstractmethod
     def t(self, key: str, **fields: Any) -> str:
         """A text in the operator's language."""
-        raise NotImplementedError
 
+    @abstractmethod
     def say(self, level: str, words: str) -> None:
         """The message line, and the log."""
-        raise NotImplementedError
 
     def go(self, q: np.ndarray, then: Job | None = None) -> None:
         """The arm moves to q (n,), visibly; `then` is done at the end."""
