@@ -1,6 +1,7 @@
 """Hold-to-move: velocity integrated on the server by the clock, with an enabling switch that times out.
 
-A browser only says "still held". When it falls silent for `SILENCE` the arm stands, whatever the browser believes.
+A browser says "still held", and once "let go". When it falls silent for `SILENCE` the arm stands, whatever the
+browser believes. One press is one increment, however the words of the press stutter on their way.
 """
 
 from __future__ import annotations
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
 __all__ = ["FRAMES", "INCREMENTS", "SILENCE", "TIP_SPEED", "Jog", "Jogging"]
 
 SILENCE = 0.3  # seconds without a word from the browser after which the arm stands
+FORGOTTEN = 1.5  # seconds of silence after which a held button counts as let go, where nobody said so
 TIP_SPEED = from_mm(250.0)  # manual speed at the tool point, m/s
 TURN_SPEED = from_deg(30.0)  # rad/s of a joint, and about the tool point, at 100%
 _LONGEST_TICK = 0.1  # seconds: a machine that stuttered does not leap
@@ -47,12 +49,26 @@ class Jogging:
         self.T_base_user: Pose | None = None  # None: where the table's frame is
         self._held: Jog | None = None
         self._heard = 0.0
+        self._press = 0  # number of the press; belongs to the event loop
+        self._spent: tuple[Jog, int] | None = None  # the press whose increment has begun
 
-    def hear(self, jog: Jog) -> None:
-        """The button is (still) held; from the event loop: takes the time and enqueues."""
+    def hear(self, jog: Jog, forgotten: float = FORGOTTEN) -> None:
+        """The button is (still) held; from the event loop: takes the time and enqueues.
+
+        Args:
+            forgotten: silence [s] after which this is another press, though nobody let go.
+        """
         heard = time.monotonic()
+        if heard - self._heard > forgotten:
+            self._press += 1
         self._heard = heard
-        self._pendant.worker.latest("jog", lambda: self._hold(jog, heard))
+        press = self._press
+        self._pendant.worker.latest("jog", lambda: self._hold(jog, heard, press))
+
+    def let_go(self) -> None:
+        """The button was let go: the arm stands, but for an increment that is under way; from the event loop."""
+        self._press += 1
+        self._heard = -float("inf")
 
     def stop(self) -> None:
         """Emergency stop: latches until it is released. May come from any thread, and does not wait in a queue."""
@@ -64,7 +80,7 @@ class Jogging:
         if self.stopped:
             raise ActionRefusedError(self._pendant.t("message.e_stop"))
 
-    def _hold(self, jog: Jog, heard: float) -> None:
+    def _hold(self, jog: Jog, heard: float, press: int) -> None:
         pendant = self._pendant
         if time.monotonic() - heard > SILENCE:
             return
@@ -74,9 +90,13 @@ class Jogging:
             return
         if self._held == jog and pendant.worker.running("jog"):
             return
+        step = INCREMENTS[self.increment]
+        if step and self._spent == (jog, press):
+            return
+        self._spent = (jog, press)
         pendant.worker.halt("move")
         self._held = jog
-        pendant.worker.animate("jog", self._run(jog, INCREMENTS[self.increment]))
+        pendant.worker.animate("jog", self._run(jog, step))
 
     def _run(self, jog: Jog, step: tuple[float, float] | None) -> Iterator[None]:
         """Tick by tick along one way; an increment is gone to its end, and held on, nothing more happens."""

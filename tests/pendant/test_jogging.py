@@ -98,6 +98,29 @@ def test_an_increment_moves_the_tip_by_just_that_along_the_frames_axis(pendant, 
     )
 
 
+def test_a_press_that_stutters_is_one_increment_and_the_next_press_is_another(pendant):
+    pendant.jogging.enabled, pendant.jogging.increment = True, "medium"
+    before = pendant.q.copy()
+    press(pendant, "joint", 0)
+    time.sleep(2 * SILENCE)  # the way from the browser stalls while the button is held
+    press(pendant, "joint", 0)
+    one = INCREMENTS["medium"][1]
+    assert pendant.q[0] - before[0] == pytest.approx(one, abs=1e-6)
+    pendant.jogging.let_go()
+    press(pendant, "joint", 0)
+    assert pendant.q[0] - before[0] == pytest.approx(2 * one, abs=1e-6)
+
+
+def test_letting_go_stops_the_arm_without_waiting_for_the_silence(pendant, monkeypatch):
+    monkeypatch.setattr("app.pendant.jogging.SILENCE", 1e3)
+    pendant.jogging.enabled = True
+    pendant.jogging.hear(Jog("joint", 0, 1))
+    until(lambda: pendant.worker.running("jog"), "the motion")
+    pendant.jogging.let_go()
+    until(lambda: not pendant.worker.running("jog"), "the stand-still")
+    until(lambda: "ready" in pendant.layout._status.content, "the status line to say so")
+
+
 def test_a_turn_keeps_the_tip_where_it_is(pendant):
     pendant.jogging.enabled, pendant.jogging.increment = True, "large"
     start = pendant.world.tip(pendant.q)

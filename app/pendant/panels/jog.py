@@ -72,6 +72,10 @@ class _View:
                     async def _(event: viser.GuiEvent, jog: Jog = jog) -> None:
                         pendant.jogging.hear(jog)
 
+                    @button.on_click  # comes when the button is let go
+                    async def _(event: viser.GuiEvent) -> None:
+                        pendant.jogging.let_go()
+
                     self._buttons.append(button)
 
     def _choose(self, frame: str) -> None:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Literal
 
 import viser
 
-from app.pendant.jogging import Jog
+from app.pendant.jogging import SILENCE, Jog
 
 if TYPE_CHECKING:
     from app.pendant.client import Pendant
@@ -49,7 +49,7 @@ class Keys:
             @command.on_trigger
             async def _(event: viser.CommandEvent, sign: int = sign) -> None:
                 if self.axis < self._count:
-                    jogging.hear(Jog(jogging.frame, self.axis, sign))
+                    jogging.hear(Jog(jogging.frame, self.axis, sign), SILENCE)  # no release is ever said
 
         for number, key in enumerate(_AXES[: max(6, pendant.model.joint_count)]):
             command = gui.add_command(t("jog.key_axis", number=number + 1), hotkey=key)
