@@ -17,6 +17,36 @@ from app.diagnosis.motion import STEPS, diagnose, judged_on
 from app.diagnosis.result import Diagnosis
 from app.kinematics import load_robot
 from app.recordings import read_table
+from benchmarks.rows import Row
+
+
+def run() -> list[Row]:
+    """Held-out torque error of what was named on run_a, beside the description alone, on every other run."""
+    folder = recorded()
+    if not folder.is_dir():
+        return []
+    learnt = read_table(folder / "run_a.csv")
+    robot = load_robot(learnt.keys["robot"], relative_to=folder)
+    others = [read_table(p) for p in sorted(folder.glob("run_[b-z].csv"))]
+    rows = []
+    for judged in judged_on(learnt, others, robot):
+        error = dict(zip(STEPS, np.sqrt(np.mean(judged.errors**2, axis=1)), strict=True))
+        rows.append(
+            Row(
+                f"torque error on {judged.file}, learnt on run_a",
+                float(error["+ what was named"]),
+                float(error[STEPS[0]]),
+                "the description alone",
+                "Nm",
+            )
+        )
+    return rows
+
+
+def recorded() -> Path:
+    """Where the recordings are."""
+    data = Path(os.environ.get("TEACHFRAME_DATA", Path(__file__).parents[2] / "shared" / "data"))
+    return data / "ur10e_motion"
 
 
 def table(folder: Path) -> None:
@@ -59,8 +89,7 @@ def tell(title: str, found: Diagnosis) -> None:
 
 
 if __name__ == "__main__":
-    data = Path(os.environ.get("TEACHFRAME_DATA", Path(__file__).parents[2] / "shared" / "data"))
-    chosen = Path(sys.argv[1]) if len(sys.argv) > 1 else data / "ur10e_motion"
+    chosen = Path(sys.argv[1]) if len(sys.argv) > 1 else recorded()
     table(chosen)
     if (chosen / "run_c.csv").exists():
         changed(chosen)

@@ -202,7 +202,7 @@ class Diagnosis:
             "noise": _plain(self.noise),
             "before": _plain(self.before),
             "after": _plain(self.after),
-            "findings": [_plain(f) for f in self.findings],
+            "findings": [_finding(f) for f in self.findings],
             "outliers": list(self.outliers),
             "leftover": _plain(self.leftover),
             "next_poses": [list(q) for q in self.next_poses],
@@ -212,6 +212,14 @@ class Diagnosis:
         if self.judged is not None:
             out["judged"] = self.judged
         return _plain(out)
+
+
+def _finding(finding: Finding) -> dict[str, Any]:
+    """The unit of its errors is only said where it is not the one of `before` and `after`."""
+    out = _plain(finding)
+    if not finding.heldout_unit:
+        del out["heldout_unit"]
+    return out
 
 
 def _plain(value: Any) -> Any:
