@@ -101,6 +101,16 @@ def test_a_report_is_written_and_named_on_stderr(tmp_path, engine):
     assert out.read_text(encoding="utf-8").startswith("<!doctype html>")
 
 
+def test_the_report_speaks_chinese_when_asked_and_json_and_terminal_stay_english(tmp_path, engine):
+    path, out = recording(tmp_path), tmp_path / "page.html"
+    asked = ("--language", "zh", "--report", out)
+    for more in ((), ("--json",)):
+        in_english, in_chinese = (teachframe("diagnose", path, *more, *rest) for rest in ((), asked))
+        assert in_chinese.code == 0 and in_chinese.out == in_english.out
+        page = out.read_text(encoding="utf-8")
+        assert "<h2>描述遗漏了什么</h2>" in page and "What was left out" not in page
+
+
 def test_a_kind_that_the_header_leaves_out_is_read_from_the_columns_and_said(tmp_path, engine):
     said = teachframe("diagnose", recording(tmp_path, head=f"# robot: {ROBOT}\n"))
     assert said.code == 0 and "'# kind:'" in said.out

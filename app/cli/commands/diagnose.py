@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import tyro
 
@@ -43,6 +43,9 @@ class Command:
 
     report: Annotated[Path | None, tyro.conf.arg(metavar="OUT.html")] = None
     """Write a page with pictures: one file, nothing loaded from outside, ready to print."""
+
+    language: Literal["en", "zh"] = "en"
+    """Of the report; JSON and the text on the terminal stay English."""
 
     save_model: Annotated[Path | None, tyro.conf.arg(metavar="OUT.json")] = None
     """Write what was found as a model that the simulation, the pendant and --model load."""
@@ -161,7 +164,14 @@ class Command:
             from app.diagnosis.report import write_report
 
             robots = [self._robot(f) for f in self._sources(kept)]
-            write_report(self.report, kept, robots, command=_command_line(), seed=self.seed)
+            write_report(
+                self.report,
+                kept,
+                robots,
+                command=_command_line(),
+                seed=self.seed,
+                language=self.language,
+            )
             print(f"report: {self.report}", file=sys.stderr)
         if self.save_model is None and self.save_urdf is None:
             return

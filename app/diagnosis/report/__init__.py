@@ -2,6 +2,7 @@
 
 wording.py   names, places and numbers as one writes them
 curves.py    residual against what it may follow, as numbers
+picture_words.py  labels of pictures in the reader's language
 text.py      the terminal's version
 page.py      the page: one HTML file without anything from outside, made to be printed
 style.py     its look

@@ -17,9 +17,11 @@ from app.diagnosis.report.parts.making import making, reading
 from app.diagnosis.report.parts.space import space
 from app.diagnosis.report.parts.timeline import timeline
 from app.diagnosis.report.style import CSS
+from app.diagnosis.report.wording import WORDS
 from app.diagnosis.result import Diagnosis
 from app.errors import InputError
 from app.kinematics import RobotModel
+from app.phrases import FALLBACK
 
 SECTIONS = (judged, findings, leftover, drivers, space, timeline, outliers, next_poses, notes)
 
@@ -31,6 +33,7 @@ def as_page(
     command: str,
     seed: int = 0,
     date: str | None = None,
+    language: str = FALLBACK,
 ) -> str:
     """One page for one or several diagnoses.
 
@@ -38,20 +41,22 @@ def as_page(
         robots: the robot of each, or None.
         command: how to make it again.
         date: what stands on it as its date; None is now.
+        language: of the page; notes of the engines and names from outside stay as they are.
     """
     date = time.strftime("%Y-%m-%d %H:%M") if date is None else date
     bodies = []
     for diagnosis, robot in zip(diagnoses, robots, strict=True):
-        case = Case(diagnosis, robot)
+        case = Case(diagnosis, robot, language)
         inside = head(case, date) + "".join(part(case) for part in SECTIONS)
         bodies.append(f'<article class="{"again" if bodies else "first"}">{inside}</article>')
     names = ", ".join(Path(d.file).name for d in diagnoses)
+    title = WORDS.text("page.title.page", language, names=names)
     seconds = sum(d.seconds for d in diagnoses)
     return (
-        '<!doctype html><html lang="en"><head><meta charset="utf-8">'
+        f'<!doctype html><html lang="{language}"><head><meta charset="utf-8">'
         '<meta name="viewport" content="width=device-width,initial-scale=1">'
-        f"<title>Diagnosis of {escape(names)}</title><style>{CSS}</style></head><body>"
-        f"{''.join(bodies)}{reading()}{making(command, seed, seconds, date)}</body></html>\n"
+        f"<title>{escape(title)}</title><style>{CSS}</style></head><body>"
+        f"{''.join(bodies)}{reading(language)}{making(command, seed, seconds, date, language)}</body></html>\n"
     )
 
 
@@ -62,8 +67,9 @@ def write_report(
     *,
     command: str,
     seed: int = 0,
+    language: str = FALLBACK,
 ) -> None:
-    """Writes the page, whole or not at all.
+    """Writes the page of `as_page`, whole or not at all.
 
     Raises:
         InputError: the file cannot be written.
@@ -71,7 +77,8 @@ def write_report(
     path = Path(path)
     temporary = path.with_name(path.name + ".part")
     try:
-        temporary.write_text(as_page(diagnoses, robots, command=command, seed=seed), encoding="utf-8")
+        page = as_page(diagnoses, robots, command=command, seed=seed, language=language)
+        temporary.write_text(page, encoding="utf-8")
         temporary.replace(path)
     except OSError as error:
         raise InputError(f"cannot be written ({error.strerror})", file=path) from None

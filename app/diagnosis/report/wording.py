@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from app.diagnosis.judging import BARE, MASSES, WITH
 from app.diagnosis.result import Diagnosis, Finding, Parameter
 from app.phrases import FALLBACK, Texts
 from app.units import deg, mm, um
@@ -23,6 +24,8 @@ _READ_AS = {
 
 #: What a diagnosis is said in, one file a language.
 WORDS = Texts(Path(__file__).parent / "words")
+#: What is in the simulation while a given model is judged -> the key of its words.
+_STEPS = {BARE: "judged.bare", MASSES: "judged.masses", WITH: "judged.with"}
 _NEARLY_ALL = 0.99
 
 
@@ -41,6 +44,11 @@ def parameter_name(key: str, language: str = FALLBACK) -> str:
 def noise_source(key: str, language: str = FALLBACK) -> str:
     """How the noise is known, in words."""
     return WORDS.text(f"noise.{key}", language)
+
+
+def judged_step(what: str, language: str = FALLBACK) -> str:
+    """What is in the simulation while a given model is judged."""
+    return WORDS.text(_STEPS[what], language) if what in _STEPS else what
 
 
 def place(where: Mapping[str, Any], language: str = FALLBACK) -> str:

@@ -5,17 +5,26 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from html import escape
+from typing import Any
 
+from app.diagnosis.report.picture_words import translated
+from app.diagnosis.report.wording import WORDS
 from app.diagnosis.result import Diagnosis
 from app.kinematics import RobotModel
+from app.phrases import FALLBACK
 
 
 @dataclass(frozen=True)
 class Case:
-    """One diagnosis and the robot it is about; without the robot some pictures are plainer."""
+    """One diagnosis and the robot it is about; without the robot some pictures are plainer.
+
+    Args:
+        language: of the page.
+    """
 
     diagnosis: Diagnosis
     robot: RobotModel | None = None
+    language: str = FALLBACK
 
     @property
     def changed(self) -> bool:
@@ -26,6 +35,14 @@ class Case:
     @property
     def prismatic(self) -> tuple[bool, ...]:
         return tuple(joint.prismatic for joint in self.robot.joints) if self.robot else ()
+
+    def t(self, key: str, /, **fields: Any) -> str:
+        """The page's own words."""
+        return WORDS.text(f"page.{key}", self.language, **fields)
+
+    def picture(self, drawn: str) -> str:
+        """A picture with its labels in the page's language."""
+        return translated(drawn, self.language)
 
 
 def section(title: str, *content: str) -> str:
@@ -52,10 +69,19 @@ def table(
     return f"<table{look}><thead><tr>{cells('th', heads)}</tr></thead><tbody>{body}</tbody></table>"
 
 
+def mark(colour: str, words: str) -> str:
+    """One colour of the key and what it means."""
+    return f'<span><i class="{colour}"></i>{escape(words)}</span>'
+
+
+def soft(words: str) -> str:
+    """A remark under a heading."""
+    return f'<p class="small soft">{escape(words)}</p>'
+
+
 def key(case: Case, *more: str) -> str:
     """What the colours mean."""
-    said = '<span><i class="b"></i>description alone</span>'
+    said = mark("b", case.t("key.before"))
     if case.changed:
-        with_it = "with what was found" if case.diagnosis.findings else "with the geometry fitted alongside"
-        said += f'<span><i class="a"></i>{with_it}</span>'
+        said += mark("a", case.t("key.found" if case.diagnosis.findings else "key.fitted"))
     return f'<div class="key">{said}{"".join(more)}</div>'

@@ -6,10 +6,8 @@ from html import escape
 from pathlib import Path
 
 from app.diagnosis.report.drawing.bars import before_after_bars
-from app.diagnosis.report.parts.case import Case, figure, key
-from app.diagnosis.report.wording import fall, measure, noise_source, verdict_sentence
-
-_VERDICTS = {"clean": "Clean", "named": "Named", "partly": "Partly explained", "unexplained": "Unexplained"}
+from app.diagnosis.report.parts.case import Case, figure, key, mark
+from app.diagnosis.report.wording import WORDS, fall, measure, noise_source, verdict_sentence
 
 
 def _robot(case: Case) -> str:
@@ -22,20 +20,19 @@ def _robot(case: Case) -> str:
 def head(case: Case, date: str) -> str:
     """Title, verdict and the bars."""
     d = case.diagnosis
-    title = _robot(case)
-    meta = f"{d.kind} recording, {d.samples} samples · robot {title}"
-    noise = f"{measure(d.noise.value, d.noise.unit)} {noise_source(d.noise.source)}"
-    marks = f'<span><i class="n"></i>noise: {escape(noise)}</span>' if d.noise.unit == d.before.unit else ""
-    smaller = fall(d.before.heldout_rms, d.after.heldout_rms)
-    caption = (
-        f"Error on rows the fit never saw: {smaller}."
-        if d.findings and smaller
-        else "Root mean square of one component of the error."
-    )
+    kind = f"kind.{d.kind}"
+    kind = case.t(kind) if WORDS.has(f"page.{kind}") else d.kind
+    meta = case.t("meta", kind=kind, samples=d.samples, robot=_robot(case))
+    source = noise_source(d.noise.source, case.language)
+    noise = case.t("noise", value=measure(d.noise.value, d.noise.unit), source=source)
+    marks = mark("n", noise) if d.noise.unit == d.before.unit else ""
+    smaller = fall(d.before.heldout_rms, d.after.heldout_rms, case.language)
+    caption = case.t("caption.fall", fall=smaller) if d.findings and smaller else case.t("caption.error")
+    verdict = f"<b>{case.t(f'verdict.{d.verdict}')}</b>{escape(verdict_sentence(d, case.language))}"
     return (
-        f'<header><div class="brand"><span>Teachframe · where simulation and recording differ</span>'
+        f'<header><div class="brand"><span>{case.t("brand")}</span>'
         f"<span>{escape(date)}</span></div>"
         f"<h1>{escape(Path(d.file).name)}</h1><div class='meta'>{escape(meta)}</div></header>"
-        f'<div class="verdict {d.verdict}"><b>{_VERDICTS[d.verdict]}</b>{escape(verdict_sentence(d))}</div>'
-        + figure(key(case, marks) + before_after_bars(d), caption)
+        f'<div class="verdict {d.verdict}">{verdict}</div>'
+        + figure(key(case, marks) + case.picture(before_after_bars(d)), caption)
     )

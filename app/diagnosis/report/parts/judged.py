@@ -6,7 +6,7 @@ from html import escape
 from pathlib import Path
 
 from app.diagnosis.report.parts.case import Case, section, table
-from app.diagnosis.report.wording import fall, measure
+from app.diagnosis.report.wording import fall, judged_step, measure
 
 
 def judged(case: Case) -> str:
@@ -16,14 +16,17 @@ def judged(case: Case) -> str:
         return ""
     first = next(iter(given.steps.values()))
     rows = [
-        (what, measure(q.heldout_rms, q.unit), "" if q is first else fall(first.heldout_rms, q.heldout_rms))
+        (
+            judged_step(what, case.language),
+            measure(q.heldout_rms, q.unit),
+            "" if q is first else fall(first.heldout_rms, q.heldout_rms, case.language),
+        )
         for what, q in given.steps.items()
     ]
-    learnt = Path(given.source).name if given.source else "another recording"
-    fitted = "Nothing was fitted." if first.unit == "Nm" else "Base and tool were fitted anew, nothing else."
-    words = f"<p>The model was learnt on {escape(learnt)}. {fitted}</p>"
+    learnt = Path(given.source).name if given.source else case.t("judged.elsewhere")
+    words = case.t("judged.nothing_fitted" if first.unit == "Nm" else "judged.set_up_fitted", source=learnt)
     return section(
-        "The given model on this recording",
-        words,
-        table(("in the simulation", "error", ""), rows, numbers=(1,), fit=True),
+        case.t("title.judged"),
+        f"<p>{escape(words)}</p>",
+        table((case.t("judged.step"), case.t("judged.error"), ""), rows, numbers=(1,), fit=True),
     )

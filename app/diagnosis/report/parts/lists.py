@@ -6,7 +6,7 @@ from html import escape
 
 import numpy as np
 
-from app.diagnosis.report.parts.case import Case, section, table
+from app.diagnosis.report.parts.case import Case, section, soft, table
 from app.diagnosis.report.wording import digits, place, probability
 from app.units import deg, mm
 
@@ -16,14 +16,12 @@ MOST_ROWS = 40
 def leftover(case: Case) -> str:
     """What remains, in one paragraph."""
     d = case.diagnosis
+    p = probability(d.leftover.p_value, case.language)
     if d.verdict in ("clean", "named"):
-        said = f"Nothing beyond noise ({probability(d.leftover.p_value)})."
+        said = case.t("leftover.nothing", p=p)
     else:
-        said = (
-            f"Structure that the model does not explain ({probability(d.leftover.p_value)}). "
-            f"Seen at: {place(d.leftover.where)}."
-        )
-    return section("What is left over", f"<p>{escape(said)}</p>")
+        said = case.t("leftover.structure", p=p, where=place(d.leftover.where, case.language))
+    return section(case.t("title.leftover"), f"<p>{escape(said)}</p>")
 
 
 def outliers(case: Case) -> str:
@@ -38,11 +36,11 @@ def outliers(case: Case) -> str:
         off = {int(row): f"{digits(float(s))} {unit}" for row, s in zip(evidence.rows, size, strict=True)}
     rows = [(str(row), off.get(row, "–")) for row in d.outliers[:MOST_ROWS]]
     more = len(d.outliers) - MOST_ROWS
-    note = f'<p class="small soft">and {more} more</p>' if more > 0 else ""
-    intro = "<p class='small soft'>Too far off to belong to the rest; look at them before anything else.</p>"
-    return section(
-        "Rows set aside", intro, table(("line of the file", "off by"), rows, numbers=(1,), fit=True), note
-    )
+    note = soft(case.t("outliers.more", count=more)) if more > 0 else ""
+    # The quotes of this one stay as they were: a page made again is the same to the last byte.
+    intro = f"<p class='small soft'>{escape(case.t('outliers.intro'))}</p>"
+    listed = table((case.t("outliers.line"), case.t("outliers.off")), rows, numbers=(1,), fit=True)
+    return section(case.t("title.outliers"), intro, listed, note)
 
 
 def next_poses(case: Case) -> str:
@@ -51,14 +49,14 @@ def next_poses(case: Case) -> str:
     if not poses:
         return ""
     slides = case.prismatic or (False,) * len(poses[0])
-    heads = ("", *(f"joint {j} [{'mm' if s else 'deg'}]" for j, s in enumerate(slides, 1)))
+    heads = ("", *(case.t("next.joint", n=j, unit="mm" if s else "deg") for j, s in enumerate(slides, 1)))
     rows = [
         (str(n), *(f"{mm(v):.1f}" if s else f"{deg(v):.1f}" for v, s in zip(q, slides, strict=True)))
         for n, q in enumerate(poses, 1)
     ]
     return section(
-        "Record these next",
-        '<p class="small soft">Reachable poses at which the best explanations differ most.</p>',
+        case.t("title.next"),
+        soft(case.t("next.intro")),
         table(heads, rows, numbers=range(1, len(heads))),
     )
 
@@ -66,4 +64,4 @@ def next_poses(case: Case) -> str:
 def notes(case: Case) -> str:
     """What a reader should know about the recording or how it was read."""
     said = "".join(f"<li>{escape(note)}</li>" for note in case.diagnosis.notes)
-    return section("Notes", f"<ul>{said}</ul>" if said else "")
+    return section(case.t("title.notes"), f"<ul>{said}</ul>" if said else "")

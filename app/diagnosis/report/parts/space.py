@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from app.diagnosis.report.curves import residual_vectors
 from app.diagnosis.report.drawing.arrows import arrow_plot, magnification
-from app.diagnosis.report.parts.case import Case, figure, key, section
+from app.diagnosis.report.parts.case import Case, figure, key, section, soft
 
 
 def space(case: Case) -> str:
@@ -15,14 +15,13 @@ def space(case: Case) -> str:
     factor = magnification(evidence)
     states = (False, True) if case.changed else (False,)
     pictures = "".join(
-        figure(arrow_plot(evidence, view, after=after, factor=factor, title=title))
+        figure(case.picture(arrow_plot(evidence, view, after=after, factor=factor, title=title)))
         for view, title in (((0, 1), "From above"), ((0, 2), "From the side"))
         for after in states
     )
     return section(
-        "Where in the work space",
-        f'<p class="small soft">Arrows run from where the simulation puts the tool to where it was measured, '
-        f"{factor:g} times longer than they are. Grey: rows set aside.</p>",
+        case.t("title.space"),
+        soft(case.t("space", factor=f"{factor:g}")),
         key(case),
         f'<div class="grid2">{pictures}</div>',
     )

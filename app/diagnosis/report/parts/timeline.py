@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from app.diagnosis.report.drawing.traces import trace_plot
-from app.diagnosis.report.parts.case import Case, figure, key, section, table
+from app.diagnosis.report.parts.case import Case, figure, key, mark, section, table
+from app.diagnosis.report.picture_words import in_language
 from app.diagnosis.report.wording import digits, fall
 from app.diagnosis.result import Diagnosis, Evidence
 
@@ -33,22 +34,29 @@ def timeline(case: Case) -> str:
     windows = windows_of(d)
     count = evidence.measured.shape[1]
     pictures = "".join(
-        figure(trace_plot(evidence, joint, windows, labelled=joint == count - 1)) for joint in range(count)
+        figure(case.picture(trace_plot(evidence, joint, windows, labelled=joint == count - 1)))
+        for joint in range(count)
     )
-    more = ['<span><i class="m"></i>measured</span>']
+    more = [mark("m", case.t("key.measured"))]
     if windows:
-        more.append('<span><i class="w"></i>time a finding points at</span>')
-    return section("Torque over time", _per_joint(evidence), key(case, *more), pictures)
+        more.append(mark("w", case.t("key.window")))
+    return section(case.t("title.timeline"), _per_joint(case, evidence), key(case, *more), pictures)
 
 
-def _per_joint(evidence: Evidence) -> str:
+def _per_joint(case: Case, evidence: Evidence) -> str:
     rows = []
     for k, name in enumerate(evidence.components):
         before, after = (_rms(r[:, k][evidence.kept]) for r in (evidence.before, evidence.after))
         rows.append(
-            (name, digits(_rms(evidence.measured[:, k])), digits(before), digits(after), fall(before, after))
+            (
+                in_language(name, case.language),
+                digits(_rms(evidence.measured[:, k])),
+                digits(before),
+                digits(after),
+                fall(before, after, case.language),
+            )
         )
-    heads = ("", "torque, rms [Nm]", "error before [Nm]", "error after [Nm]", "")
+    heads = ("", *(case.t(f"torques.{key}") for key in ("rms", "before", "after")), "")
     return table(heads, rows, numbers=(1, 2, 3))
 
 

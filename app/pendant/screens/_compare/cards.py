@@ -9,14 +9,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from app.diagnosis.judging import BARE, MASSES, WITH
 from app.diagnosis.model import SavedModel
 from app.diagnosis.report.wording import (
-    WORDS,
     effect_title,
     fall,
     finding_sentence,
     joint_values,
+    judged_step,
     measure,
     noise_source,
     parameter_name,
@@ -33,7 +32,6 @@ if TYPE_CHECKING:
     from app.pendant.client import Pendant
     from app.pendant.screens._compare.loaded import Loaded
 
-_STEPS = {BARE: "judged.bare", MASSES: "judged.masses", WITH: "judged.with"}
 _MOST_SAID, _MOST_ROWS = 4, 20  # effects of a model, rows set aside
 _LIGHT = {"clean": "green", "named": "blue", "partly": "yellow", "unexplained": "red"}
 
@@ -104,7 +102,7 @@ def judged(pendant: Pendant, of: Judged) -> str:
     first = next(iter(of.steps.values()))
     rows = [
         (
-            WORDS.text(_STEPS[what], pendant.language),
+            judged_step(what, pendant.language),
             measure(q.heldout_rms, q.unit),
             "" if q is first else fall(first.heldout_rms, q.heldout_rms, pendant.language),
         )

@@ -13,12 +13,15 @@ if TYPE_CHECKING:
 
 
 def send_report(pendant: Pendant, loaded: Loaded | None) -> None:
-    """The page of `teachframe diagnose --report`, with the same content."""
+    """The page of `teachframe diagnose --report`, with the same content, in the operator's language."""
     if loaded is None or loaded.diagnosis is None:
         return
     named = f" --robot {loaded.named}" if loaded.named else ""
     page = as_page(
-        [loaded.diagnosis], [loaded.robot], command=f"teachframe diagnose {loaded.path.name}{named}"
+        [loaded.diagnosis],
+        [loaded.robot],
+        command=f"teachframe diagnose {loaded.path.name}{named}",
+        language=pendant.language,
     )
     name = f"{loaded.path.stem}.report.html"
     pendant.client.send_file_download(name, page.encode("utf-8"), save_immediately=True)

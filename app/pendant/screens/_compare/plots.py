@@ -4,42 +4,18 @@ from __future__ import annotations
 
 import re
 from functools import cache
-from html import escape, unescape
 
 from app.diagnosis.report.curves import Curve
 from app.diagnosis.report.drawing.bars import before_after_bars
 from app.diagnosis.report.drawing.scatter import driver_plot
 from app.diagnosis.report.drawing.traces import trace_plot
 from app.diagnosis.report.parts.timeline import windows_of
+from app.diagnosis.report.picture_words import translated
 from app.diagnosis.report.style import PICTURES
 from app.diagnosis.result import Diagnosis, Evidence
-from app.pendant.texts import FALLBACK, text
+from app.phrases import FALLBACK
 
 PANEL_WIDTH = 340.0
-_TEXT = re.compile(r"(<(?:text|title)\b[^>]*>)([^<]*)(</)")
-#: What the pictures are labelled with, whole labels -> the key of their translation.
-_LABELS = tuple(
-    (re.compile(pattern), key)
-    for pattern, key in (
-        (r"rows fitted", "fitted"),
-        (r"rows held out", "held_out"),
-        (r"joint (?P<n>\d+)", "joint"),
-        (r"joint (?P<n>\d+): torque \[(?P<unit>.+)\]", "torque"),
-        (r"torque error of joint (?P<n>\d+) \[(?P<unit>.+)\]", "torque_error"),
-        (r"joint (?P<n>\d+) off by \[(?P<unit>.+)\]", "off"),
-        (r"error along its main direction \[(?P<unit>.+)\]", "along"),
-        (r"time \[(?P<unit>.+)\]", "time"),
-        (r"temperature \[(?P<unit>.+)\]", "temperature"),
-        (r"line of the file", "line"),
-        (r"gravity torque of joint (?P<n>\d+) \[(?P<unit>.+)\]", "gravity_torque"),
-        (r"angle of joint (?P<n>\d+) \[(?P<unit>.+)\]", "angle"),
-        (r"position of joint (?P<n>\d+) \[(?P<unit>.+)\]", "position"),
-        (r"last move of joint (?P<n>\d+)", "last_move"),
-        (r"speed of joint (?P<n>\d+) \[(?P<unit>.+)\]", "speed"),
-        (r"acceleration of joint (?P<n>\d+) \[(?P<unit>.+)\]", "acceleration"),
-        (r"temperature of joint (?P<n>\d+) \[(?P<unit>.+)\]", "joint_temperature"),
-    )
-)
 
 
 def bars(diagnosis: Diagnosis, language: str = FALLBACK) -> str:
@@ -65,23 +41,12 @@ def trace(
     return _framed(drawn, "compare-trace", language)
 
 
-def in_language(label: str, language: str) -> str:
-    """A label of a picture in the operator's language; as it is where nothing is known of it."""
-    if language == FALLBACK:
-        return label
-    for pattern, key in _LABELS:
-        match = pattern.fullmatch(label)
-        if match:
-            return text(f"plot.{key}", language, **match.groupdict())
-    return label
-
-
 def _framed(picture: str, testid: str, language: str) -> str:
     """On white in light and dark pages alike: the colours were chosen for paper."""
-    picture = _TEXT.sub(lambda m: m[1] + escape(in_language(unescape(m[2]), language)) + m[3], picture)
     return (
         f'<div class="tf-plot" data-testid="{testid}" style="--before:#d97b16;--after:#1866ad;--noise:#7b8794;'
-        f'background:#fff;border-radius:4px;margin:4px 8px;padding:3px"><style>{_confined()}</style>{picture}</div>'
+        f'background:#fff;border-radius:4px;margin:4px 8px;padding:3px">'
+        f"<style>{_confined()}</style>{translated(picture, language)}</div>"
     )
 
 

@@ -6,6 +6,7 @@ import time
 from typing import TYPE_CHECKING, Any
 
 from app.diagnosis.report.curves import Curve, driver_curves
+from app.diagnosis.report.picture_words import in_language
 from app.diagnosis.result import Diagnosis, Leftover, Noise, Quality
 from app.pendant.screens._compare import plots
 from app.pendant.screens._compare.loaded import Loaded
@@ -47,12 +48,12 @@ class Plotting:
         if loaded.moving:
             self._curves, first = {}, loaded.telling_joint
             self._names = tuple(
-                plots.in_language(name, self._pendant.language) for name in loaded.evidence.components
+                in_language(name, self._pendant.language) for name in loaded.evidence.components
             )
         else:
             found = loaded.diagnosis if loaded.diagnosis is not None else _nothing_yet(loaded)
             curves = driver_curves(found, loaded.robot, most=_MOST)
-            self._curves = {plots.in_language(c.driver, self._pendant.language): c for c in curves}
+            self._curves = {in_language(c.driver, self._pendant.language): c for c in curves}
             self._names, first = tuple(self._curves) or ("-",), 0
         self.folder.visible = True
         self._what.options = self._names
