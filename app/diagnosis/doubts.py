@@ -73,12 +73,13 @@ def check_units(table: Table, robot: RobotModel) -> None:
     for j, factor in suspects:
         scaled = recording.q.copy()
         scaled[:, j] *= factor
-        if _left(recording.with_joints(robot, scaled)) < _FALL * usual:
+        left = _left(recording.with_joints(robot, scaled))
+        if left < _FALL * usual:
             column = table.columns[f"q{j + 1}"]
             other = "radians" if factor > 1.0 else "degrees"
             raise InputError(
                 f"its values look like {other}: the recording then fits to "
-                f"{mm(_left(recording.with_joints(robot, scaled))):.3g} mm, and to {mm(usual):.3g} mm as it is",
+                f"{mm(left):.3g} mm, and to {mm(usual):.3g} mm as it is",
                 file=table.path,
                 row=table.header_row,
                 column=column.name,

@@ -11,43 +11,42 @@ from html import escape, unescape
 from app.diagnosis.report.wording import WORDS
 from app.phrases import FALLBACK
 
+
+def _compiled(*labels: tuple[str, str]) -> tuple[tuple[re.Pattern[str], str], ...]:
+    return tuple((re.compile(pattern), key) for pattern, key in labels)
+
+
 _SAID = re.compile(r'(<text\b[^>]*>|aria-label=")([^<"]*)')
 #: Labels that stand alone, whole -> the key of their translation.
-_LABELS = tuple(
-    (re.compile(pattern), key)
-    for pattern, key in (
-        (r"rows fitted", "fitted"),
-        (r"rows held out", "held_out"),
-        (r"joint (?P<n>\d+)", "joint"),
-        (r"joint (?P<n>\d+): torque \[(?P<unit>[^\]]+)\]", "torque"),
-        (r"torque error of joint (?P<n>\d+) \[(?P<unit>[^\]]+)\]", "torque_error"),
-        (r"joint (?P<n>\d+) off by \[(?P<unit>[^\]]+)\]", "off"),
-        (r"error along its main direction \[(?P<unit>[^\]]+)\]", "along"),
-        (r"time \[(?P<unit>[^\]]+)\]", "time"),
-        (r"temperature \[(?P<unit>[^\]]+)\]", "temperature"),
-        (r"line of the file", "line"),
-        (r"gravity torque of joint (?P<n>\d+) \[(?P<unit>[^\]]+)\]", "gravity_torque"),
-        (r"angle of joint (?P<n>\d+) \[(?P<unit>[^\]]+)\]", "angle"),
-        (r"position of joint (?P<n>\d+) \[(?P<unit>[^\]]+)\]", "position"),
-        (r"last move of joint (?P<n>\d+)", "last_move"),
-        (r"speed of joint (?P<n>\d+) \[(?P<unit>[^\]]+)\]", "speed"),
-        (r"acceleration of joint (?P<n>\d+) \[(?P<unit>[^\]]+)\]", "acceleration"),
-        (r"temperature of joint (?P<n>\d+) \[(?P<unit>[^\]]+)\]", "joint_temperature"),
-        (r"From above", "above"),
-        (r"From the side", "side"),
-        (r"(?P<axis>[xyz]) of base \[(?P<unit>[^\]]+)\]", "of_base"),
-        (r"Error before and after, against the noise", "bars"),
-    )
+_LABELS = _compiled(
+    (r"rows fitted", "fitted"),
+    (r"rows held out", "held_out"),
+    (r"joint (?P<n>\d+)", "joint"),
+    (r"joint (?P<n>\d+): torque \[(?P<unit>[^\]]+)\]", "torque"),
+    (r"torque error of joint (?P<n>\d+) \[(?P<unit>[^\]]+)\]", "torque_error"),
+    (r"joint (?P<n>\d+) off by \[(?P<unit>[^\]]+)\]", "off"),
+    (r"error along its main direction \[(?P<unit>[^\]]+)\]", "along"),
+    (r"time \[(?P<unit>[^\]]+)\]", "time"),
+    (r"temperature \[(?P<unit>[^\]]+)\]", "temperature"),
+    (r"line of the file", "line"),
+    (r"gravity torque of joint (?P<n>\d+) \[(?P<unit>[^\]]+)\]", "gravity_torque"),
+    (r"angle of joint (?P<n>\d+) \[(?P<unit>[^\]]+)\]", "angle"),
+    (r"position of joint (?P<n>\d+) \[(?P<unit>[^\]]+)\]", "position"),
+    (r"last move of joint (?P<n>\d+)", "last_move"),
+    (r"speed of joint (?P<n>\d+) \[(?P<unit>[^\]]+)\]", "speed"),
+    (r"acceleration of joint (?P<n>\d+) \[(?P<unit>[^\]]+)\]", "acceleration"),
+    (r"temperature of joint (?P<n>\d+) \[(?P<unit>[^\]]+)\]", "joint_temperature"),
+    (r"From above", "above"),
+    (r"From the side", "side"),
+    (r"(?P<axis>[xyz]) of base \[(?P<unit>[^\]]+)\]", "of_base"),
+    (r"Error before and after, against the noise", "bars"),
 )
 #: Labels made of others: their fields are put into words first.
-_MADE_OF_OTHERS = tuple(
-    (re.compile(pattern), key)
-    for pattern, key in (
-        (r"(?P<view>[^:]+): (?P<label>[xyz] of base \[.+\])", "view"),
-        (r"(?P<view>[^,]+), residual arrows, (?P<factor>\S+) times life size", "arrows"),
-        (r"(?P<component>.+): measured and simulated torque", "traces"),
-        (r"(?P<response>.+) against (?P<driver>.+)", "against"),
-    )
+_MADE_OF_OTHERS = _compiled(
+    (r"(?P<view>[^:]+): (?P<label>[xyz] of base \[.+\])", "view"),
+    (r"(?P<view>[^,]+), residual arrows, (?P<factor>\S+) times life size", "arrows"),
+    (r"(?P<component>.+): measured and simulated torque", "traces"),
+    (r"(?P<response>.+) against (?P<driver>.+)", "against"),
 )
 
 

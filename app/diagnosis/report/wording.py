@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from app.diagnosis.judging import BARE, MASSES, WITH
-from app.diagnosis.result import Diagnosis, Finding, Parameter
+from app.diagnosis.result import Diagnosis, Finding, Judged, Parameter
 from app.phrases import FALLBACK, Texts
 from app.units import deg, mm, um
 
@@ -49,6 +49,19 @@ def noise_source(key: str, language: str = FALLBACK) -> str:
 def judged_step(what: str, language: str = FALLBACK) -> str:
     """What is in the simulation while a given model is judged."""
     return WORDS.text(_STEPS[what], language) if what in _STEPS else what
+
+
+def judged_rows(judged: Judged, language: str = FALLBACK) -> list[tuple[str, str, str]]:
+    """Each step of a given model's judgement: what is in, its error, how much smaller than before."""
+    first = next(iter(judged.steps.values()))
+    return [
+        (
+            judged_step(what, language),
+            measure(q.heldout_rms, q.unit),
+            "" if q is first else fall(first.heldout_rms, q.heldout_rms, language),
+        )
+        for what, q in judged.steps.items()
+    ]
 
 
 def place(where: Mapping[str, Any], language: str = FALLBACK) -> str:

@@ -7,7 +7,7 @@ import numpy as np
 from app.diagnosis.result import Alternative
 from app.diagnosis.static.fit import Fitted
 from app.diagnosis.static.library import Candidate, library
-from app.diagnosis.static.looking import score_all, without
+from app.diagnosis.static.looking import key_of, score_all, without
 from app.diagnosis.static.score import basis
 
 #: Difference of BIC within which two models are not told apart (a Bayes factor of 100).
@@ -35,11 +35,11 @@ def alternatives_of(fitted: Fitted, index: int, wanted: tuple[Candidate, ...]) -
     mine = fitted.rss
     parameters = len(term.values)
     delta = n * np.log(np.maximum(rss - scores.gain, 1e-300) / mine) + (scores.size - parameters) * np.log(n)
-    taken = {(t.effect.key, *sorted(t.where.items())) for t in fitted.terms}
+    taken = {key_of(t.effect.key, t.where) for t in fitted.terms}
     out: list[Alternative] = []
     for at in np.argsort(delta):
         candidate = scores.candidates[at]
-        label = (candidate.effect.key, *sorted(candidate.place.where.items()))
+        label = key_of(candidate.effect.key, candidate.place.where)
         if delta[at] > MARGIN or len(out) == MOST:
             break
         if label in taken:

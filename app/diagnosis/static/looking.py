@@ -64,7 +64,5 @@ def visible_share(fitted: Fitted, index: int) -> float:
     block = fitted.jacobian[:, where] @ fitted.terms[index].values
     if not np.any(block):
         block = fitted.jacobian[:, where].sum(axis=1)
-    keep = np.ones(fitted.jacobian.shape[1], bool)
-    keep[where] = False
-    rest = basis(fitted.jacobian[:, keep]).project(block[:, None])[:, 0]
+    rest = basis(without(fitted, index)[0]).project(block[:, None])[:, 0]
     return float(np.clip(np.linalg.norm(rest) / max(float(np.linalg.norm(block)), 1e-300), 0.0, 1.0))

@@ -13,9 +13,9 @@ from app.diagnosis.static.convention_findings import convention_findings
 from app.diagnosis.static.evidence import evidence_of
 from app.diagnosis.static.excess import below_noise, beyond_noise
 from app.diagnosis.static.findings import findings_of, quality, strong
-from app.diagnosis.static.fit import Term
 from app.diagnosis.static.gross import HOPELESS
 from app.diagnosis.static.library import candidates
+from app.diagnosis.static.looking import key_of
 from app.diagnosis.static.models import saved_model
 from app.diagnosis.static.next_poses import next_poses
 from app.diagnosis.static.noise import known_noise, noise_of, position_rms
@@ -49,8 +49,8 @@ def conclude(robot: RobotModel, outcome: Outcome, tick, began: float) -> Diagnos
     noise = noise_of(found.recording, known, found)
     excess = beyond_noise(found, known)
     left = hopeless or excess or contested or _structure(plan, findings)
-    said = {(f.effect, *sorted(f.where.items())) for f in findings}
-    kept = {id(t) for t in found.terms if (t.tacit and not hopeless) or _label(t) in said}
+    said = {key_of(f.effect, f.where) for f in findings}
+    kept = {id(t) for t in found.terms if (t.tacit and not hopeless) or key_of(t.effect.key, t.where) in said}
     model = saved_model(found, robot.name, recording.file, outcome.written, kept)
     return Diagnosis(
         file=recording.file,
@@ -70,10 +70,6 @@ def conclude(robot: RobotModel, outcome: Outcome, tick, began: float) -> Diagnos
         model=msgspec.to_builtins(model),
         evidence=evidence_of(recording, outcome),
     )
-
-
-def _label(term: Term) -> tuple:
-    return (term.effect.key, *sorted(term.where.items()))
 
 
 def _hopeless(outcome: Outcome) -> bool:

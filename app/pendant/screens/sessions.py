@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import tempfile
 import time
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from app.errors import InputError
 from app.pendant import html
 from app.pendant.screens._sessions.replaying import back, played, summary
+from app.pendant.uploads import put
 from app.session import SessionState, replay
 from app.session.journal import encode_journal, read_journal
 from app.session.state import robot_named
@@ -113,12 +113,10 @@ class _View:
 
     def _take(self, name: str, content: bytes) -> None:
         pendant = self._pendant
-        if len(content) > _LARGEST:
-            pendant.say("warning", pendant.t("message.too_large", name=name))
-            return
         with tempfile.TemporaryDirectory() as folder:
-            path = Path(folder) / (Path(name).name or "session.jsonl")
-            path.write_bytes(content)
+            path = put(pendant, folder, name, content, otherwise="session.jsonl", most=_LARGEST)
+            if path is None:
+                return
             recorded = read_journal(path)
             replay(recorded)  # what cannot be replayed is not taken in
         self._fill(pendant.shelf.store.take(recorded))

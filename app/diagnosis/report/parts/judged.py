@@ -6,7 +6,7 @@ from html import escape
 from pathlib import Path
 
 from app.diagnosis.report.parts.case import Case, section, table
-from app.diagnosis.report.wording import fall, judged_step, measure
+from app.diagnosis.report.wording import judged_rows
 
 
 def judged(case: Case) -> str:
@@ -15,14 +15,7 @@ def judged(case: Case) -> str:
     if given is None:
         return ""
     first = next(iter(given.steps.values()))
-    rows = [
-        (
-            judged_step(what, case.language),
-            measure(q.heldout_rms, q.unit),
-            "" if q is first else fall(first.heldout_rms, q.heldout_rms, case.language),
-        )
-        for what, q in given.steps.items()
-    ]
+    rows = judged_rows(given, case.language)
     learnt = Path(given.source).name if given.source else case.t("judged.elsewhere")
     words = case.t("judged.nothing_fitted" if first.unit == "Nm" else "judged.set_up_fitted", source=learnt)
     return section(

@@ -12,10 +12,9 @@ import numpy as np
 from app.diagnosis.model import SavedModel
 from app.diagnosis.report.wording import (
     effect_title,
-    fall,
     finding_sentence,
     joint_values,
-    judged_step,
+    judged_rows,
     measure,
     noise_source,
     parameter_name,
@@ -99,15 +98,7 @@ def verdict(pendant: Pendant, diagnosis: Diagnosis) -> str:
 
 def judged(pendant: Pendant, of: Judged) -> str:
     """A given model on this recording: the error with and without it."""
-    first = next(iter(of.steps.values()))
-    rows = [
-        (
-            judged_step(what, pendant.language),
-            measure(q.heldout_rms, q.unit),
-            "" if q is first else fall(first.heldout_rms, q.heldout_rms, pendant.language),
-        )
-        for what, q in of.steps.items()
-    ]
+    rows = judged_rows(of, pendant.language)
     learnt = Path(of.source).name if of.source else "?"
     return html.paragraph(pendant.t("compare.judged", source=learnt)) + html.table(
         rows, testid="compare-judged"

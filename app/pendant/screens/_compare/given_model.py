@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from app.diagnosis.model import SavedModel, load_model
 from app.pendant.screens._compare import cards
 from app.pendant.screens._compare.kept import Kept
+from app.pendant.uploads import put
 from app.session.actions import UseModel
 
 if TYPE_CHECKING:
@@ -68,11 +68,17 @@ class GivenModel:
 
     def _uploaded(self, name: str, content: bytes) -> None:
         pendant = self._pendant
-        if len(content) > _LARGEST:
-            pendant.say("warning", pendant.t("compare.too_large", name=name))
+        path = put(
+            pendant,
+            self._kept.folder,
+            name,
+            content,
+            otherwise="model.json",
+            most=_LARGEST,
+            refusal="compare.too_large",
+        )
+        if path is None:
             return
-        path = self._kept.folder / (Path(name).name or "model.json")
-        path.write_bytes(content)
         self.take(load_model(path), path.name)
         pendant.say("good", pendant.t("compare.model_given", name=path.name))
         self._changed()

@@ -12,6 +12,7 @@ from app.kinematics import robot_names
 from app.pendant.screens._compare.hidden import KINDS, make_hidden, make_with
 from app.pendant.screens._compare.kept import Kept
 from app.pendant.screens._compare.loaded import Loaded, load
+from app.pendant.uploads import put
 
 if TYPE_CHECKING:
     from app.pendant.client import Pendant
@@ -48,11 +49,17 @@ class Sources:
 
     def _uploaded(self, name: str, content: bytes) -> None:
         pendant = self._pendant
-        if len(content) > _LARGEST:
-            pendant.say("warning", pendant.t("compare.too_large", name=name))
+        path = put(
+            pendant,
+            self._kept.folder,
+            name,
+            content,
+            otherwise="recording.csv",
+            most=_LARGEST,
+            refusal="compare.too_large",
+        )
+        if path is None:
             return
-        path = self._kept.folder / (Path(name).name or "recording.csv")
-        path.write_bytes(content)
         if path.suffix.lower() in (".urdf", ".xml"):
             self._kept.urdf = path
             pendant.say("info", pendant.t("compare.urdf", name=path.name))

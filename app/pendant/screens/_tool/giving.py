@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import tempfile
 from datetime import datetime
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from app.calibration.exchange import ToolFrame, exchange_format, formats, read_frame
 from app.calibration.report import report
 from app.pendant.screens._tool.paper import calculate
+from app.pendant.uploads import put
 from app.session.actions import ChooseMode, Enter
 from app.session.state import DIRECT, as_tuple
 
@@ -51,12 +51,10 @@ def send_report(pendant: Pendant, name: str) -> None:
 
 def take_frame(pendant: Pendant, name: str, content: bytes) -> None:
     """A tool frame somebody sent, in any of the formats: it stands there as if it had been typed."""
-    if len(content) > _LARGEST:
-        pendant.say("warning", pendant.t("message.too_large", name=name))
-        return
     with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder) / (Path(name).name or "tool")
-        path.write_bytes(content)
+        path = put(pendant, folder, name, content, otherwise="tool", most=_LARGEST)
+        if path is None:
+            return
         frame = read_frame(path)
     x, y, z = as_tuple(frame.pose.position)
     pendant.do(ChooseMode(DIRECT))

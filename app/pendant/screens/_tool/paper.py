@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import tempfile
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from app import resources
 from app.kinematics import solve_ik
+from app.pendant.uploads import put
 from app.session.actions import Calculate, ChooseRobot, LoadPoints
 from app.session.points import load_action
 from app.session.state import FIRST_ROBOT
@@ -31,12 +31,10 @@ def play_paper_table(pendant: Pendant) -> None:
 
 def play_upload(pendant: Pendant, name: str, content: bytes) -> None:
     """A file somebody sent from the browser; it is read where nobody else sees it and not kept."""
-    if len(content) > _LARGEST:
-        pendant.say("warning", pendant.t("message.too_large", name=name))
-        return
     with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder) / (Path(name).name or "points.csv")
-        path.write_bytes(content)
+        path = put(pendant, folder, name, content, otherwise="points.csv", most=_LARGEST)
+        if path is None:
+            return
         action = load_action(path)
     if action.robot and action.robot != pendant.session.state.robot:
         pendant.do(ChooseRobot(action.robot))
