@@ -10,12 +10,26 @@ collision.py   what the arm, its tool and its surroundings touch
 contact.py     how far a carried thing is from a standing one
 """
 
+import importlib
+from typing import TYPE_CHECKING, Any
+
 from app.kinematics.chain import Chain
-from app.kinematics.collision import CollisionWorld, ContactPair
-from app.kinematics.contact import Contact
-from app.kinematics.inverse import IkResult, solve_ik
 from app.kinematics.loading import load_robot, robot_names
 from app.kinematics.robot import Joint, RobotModel
+
+if TYPE_CHECKING:
+    from app.kinematics.collision import CollisionWorld, ContactPair
+    from app.kinematics.contact import Contact
+    from app.kinematics.inverse import IkResult, solve_ik
+
+#: What few commands need and what costs as much to load as all the rest: coal, scipy.
+_LATER = {
+    "CollisionWorld": "collision",
+    "ContactPair": "collision",
+    "Contact": "contact",
+    "IkResult": "inverse",
+    "solve_ik": "inverse",
+}
 
 __all__ = [
     "Chain",
@@ -29,3 +43,9 @@ __all__ = [
     "robot_names",
     "solve_ik",
 ]
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _LATER:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(importlib.import_module(f"app.kinematics.{_LATER[name]}"), name)

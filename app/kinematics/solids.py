@@ -10,7 +10,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.spatial import ConvexHull
 
 from app.kinematics.robot import RobotModel
 from app.kinematics.shapes import Shape, ball, read_shapes, rod
@@ -113,6 +112,8 @@ def faces(points: np.ndarray, crease: float = 0.6) -> tuple[np.ndarray, np.ndarr
     Returns:
         vertices (k, 3), triangles (t, 3), wound outwards.
     """
+    from scipy.spatial import ConvexHull  # slow to load; a session has many parts that draw nothing
+
     hull = ConvexHull(points)
     triangles, normals = hull.simplices.copy(), hull.equations[:, :3]
     corner = points[triangles]

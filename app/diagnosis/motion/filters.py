@@ -7,13 +7,16 @@ a wider window saves in noise and costs in bias is then estimated from the data 
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.interpolate import CubicSpline
-from scipy.ndimage import convolve1d
-from scipy.signal import savgol_coeffs, savgol_filter
+from scipy.ndimage import correlate1d
+
+if TYPE_CHECKING:
+    from scipy.interpolate import CubicSpline
 
 DEGREE = 4
 HALF_WIDTHS = (2, 3, 4, 6, 8, 11, 15, 20, 27, 36, 48)
@@ -69,8 +72,8 @@ def choose_half_width(signal: np.ndarray, step: float, derivative: int) -> tuple
     edge = HALF_WIDTHS[-1] if len(probe) > 4 * HALF_WIDTHS[-1] else widths[-1]
     inner = slice(edge, -edge)
     for h in widths:
-        c = _coefficients(h, derivative) / step**derivative
-        d = convolve1d(probe, c)
+        c = _weights(h, derivative)[h] / step**derivative
+        d = correlate1d(probe, c)
         if not len(first):
             first, first_c = d, c
         pad = np.zeros_like(c)
@@ -82,10 +85,21 @@ def choose_half_width(signal: np.ndarray, step: float, derivative: int) -> tuple
     return widths[best], float(risks[best])
 
 
-@lru_cache(maxsize=64)
-def _coefficients(half: int, derivative: int) -> np.ndarray:
-    """(2 half + 1,) weights of the local polynomial for a step of one, as a convolution takes them."""
-    return savgol_coeffs(2 * half + 1, DEGREE, deriv=derivative)
+@lru_cache(maxsize=128)
+def _weights(half: int, derivative: int) -> np.ndarray:
+    """(2 half + 1, 2 half + 1): what each sample of a window adds to the polynomial's derivative at each place.
+
+    The middle row is the filter; the others serve the ends of a log. For a step of one.
+    """
+    x = np.arange(-half, half + 1) / half  # powers of whole samples would be far apart in size
+    fitted = np.linalg.pinv(np.vander(x, DEGREE + 1, increasing=True))
+    powers = np.arange(derivative, DEGREE + 1)
+    factor = np.array([math.perm(int(p), derivative) for p in powers], float)
+    at = factor * x[:, None] ** (powers - derivative) / half**derivative
+    out = at @ fitted[derivative:]
+    # To the last digit, so that the filter below may add before it multiplies.
+    out[half] = 0.5 * (out[half] + (-1) ** derivative * out[half][::-1])
+    return out
 
 
 def differentiate(
@@ -151,7 +165,7 @@ def _even(t: np.ndarray, values: np.ndarray, step: float) -> np.ndarray:
     if len(t) < 4 or _is_even(t, step):
         return values
     grid = t[0] + step * np.arange(int((t[-1] - t[0]) / step) + 1)
-    return np.asarray(CubicSpline(t, values, axis=0)(grid))
+    return np.asarray(_spline(t, values)(grid))
 
 
 def _back(t: np.ndarray, step: float, count: int):
@@ -159,7 +173,13 @@ def _back(t: np.ndarray, step: float, count: int):
     if len(t) < 4 or (count == len(t) and _is_even(t, step)):
         return lambda values: values
     grid = t[0] + step * np.arange(count)
-    return lambda values: CubicSpline(grid, values)(np.clip(t, grid[0], grid[-1]))
+    return lambda values: _spline(grid, values)(np.clip(t, grid[0], grid[-1]))
+
+
+def _spline(t: np.ndarray, values: np.ndarray) -> CubicSpline:
+    from scipy.interpolate import CubicSpline  # slow to load, and most logs are even
+
+    return CubicSpline(t, values, axis=0)
 
 
 def _filter(signal: np.ndarray, half: int, derivative: int, step: float) -> np.ndarray:
@@ -170,4 +190,9 @@ def _filter(signal: np.ndarray, half: int, derivative: int, step: float) -> np.n
         for _ in range(derivative):
             signal = np.gradient(signal, step) if len(signal) > 1 else np.zeros_like(signal)
         return signal
-    return np.asarray(savgol_filter(signal, width, DEGREE, deriv=derivative, delta=step))
+    half = width // 2
+    weights = _weights(half, derivative) / step**derivative
+    out = correlate1d(signal, weights[half])
+    out[:half] = weights[:half] @ signal[:width]
+    out[-half:] = weights[-half:] @ signal[-width:]
+    return out

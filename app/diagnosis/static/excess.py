@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from scipy import stats
+from scipy import special
 
 from app.diagnosis.static.fit import Fitted
 from app.diagnosis.static.noise import NoiseLevel, position_rms
@@ -19,7 +19,7 @@ def beyond_noise(fitted: Fitted, known: NoiseLevel) -> bool:
     ratio = position_rms(fitted) / known.sigma
     if ratio < RATIO[known.source]:
         return False
-    chance = stats.f.sf(ratio**2, fitted.dof, min(known.dof, 1e6))
+    chance = special.fdtrc(fitted.dof, min(known.dof, 1e6), ratio**2)
     return bool(chance < LEVEL)
 
 
@@ -28,4 +28,4 @@ def below_noise(fitted: Fitted, known: NoiseLevel) -> bool:
     if known.sigma is None:
         return False
     ratio = position_rms(fitted) / known.sigma
-    return bool(stats.f.cdf(ratio**2, fitted.dof, min(known.dof, 1e6)) < LEVEL)
+    return bool(special.fdtr(fitted.dof, min(known.dof, 1e6), ratio**2) < LEVEL)

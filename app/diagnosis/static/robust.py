@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy import stats
+from scipy import special
 
 from app.diagnosis.static.fit import Fitted
 from app.diagnosis.static.score import basis
@@ -22,14 +22,16 @@ def outlier_rows(fitted: Fitted) -> np.ndarray:
     count = present.sum(axis=1)
     squares = np.sum(adjusted**2, axis=1)
     # The size of k Gaussian components, brought to one sigma-like number by its own median.
-    size = np.sqrt(squares / np.maximum(count, 1))
-    median = np.sqrt(stats.chi2.median(np.maximum(count, 1)) / np.maximum(count, 1))
+    free = np.maximum(count, 1)
+    size = np.sqrt(squares / free)
+    median = np.sqrt(2.0 * special.gammaincinv(0.5 * free, 0.5) / free)
     scale = float(np.median((size / median)[count > 0]))
     if scale <= 0:
         return np.zeros(m, bool)
     # The chance of such a size, written as the sigma of one Gaussian component.
-    log_tail = stats.chi2.logsf(squares / scale**2, np.maximum(count, 1))
-    limit = stats.norm.logsf(LIMIT) + np.log(2.0)
+    with np.errstate(divide="ignore"):
+        log_tail = np.log(special.chdtrc(free, squares / scale**2))
+    limit = special.log_ndtr(-LIMIT) + np.log(2.0)
     out = (log_tail < limit) & (count > 0)
     if out.mean() > MOST:
         worst = np.argsort(log_tail)[: int(MOST * m)]

@@ -112,22 +112,35 @@ def _body(
     data = _read(path, offset, header_row)
     lines = data.count(b"\n") + (0 if data.endswith(b"\n") or not data else 1)
     rows = np.arange(header_row + 1, header_row + 1 + lines)
-    simple = b'"' not in data and b"\r" not in data and b"#" not in data
-    if not simple or _BLANK.search(data):
-        data, rows = _tidy(data, path, header_row)
-    _check_width(data, rows, len(names), path)
-    schema = dict.fromkeys(names, pl.String)
-    try:
-        frame = pl.read_csv(
-            io.BytesIO(data), has_header=False, schema=schema, null_values="", truncate_ragged_lines=False
-        )
-    except pl.exceptions.PolarsError as error:
-        reason = str(error).splitlines()[0]
+    plain = b'"' not in data and b"\r" not in data and b"#" not in data
+    # As many commas as the rows need, and (the parser sees to it) none with more: then none has fewer either.
+    full = plain and len(names) > 1 and data.count(b",") == lines * (len(names) - 1) > 0
+    frame = _frame(data, names) if full else None
+    if not isinstance(frame, pl.DataFrame) or len(frame) != lines:
+        if not plain or _BLANK.search(data):
+            data, rows = _tidy(data, path, header_row)
+        _check_width(data, rows, len(names), path)
+        frame = _frame(data, names)
+    if isinstance(frame, str):
         raise FileFormatError(
-            f"cannot read the rows ({reason})", file=path, row=header_row + 1, expected="comma-separated rows"
-        ) from None
+            f"cannot read the rows ({frame})", file=path, row=header_row + 1, expected="comma-separated rows"
+        )
     frame = frame.with_columns(pl.all().str.strip_chars().replace("", None))
     return frame, rows[: len(frame)]
+
+
+def _frame(data: bytes, names: tuple[str, ...]) -> pl.DataFrame | str:
+    """The cells as text, or why they cannot be read; a row with too many cells is refused, one with too few filled."""
+    try:
+        return pl.read_csv(
+            io.BytesIO(data),
+            has_header=False,
+            schema=dict.fromkeys(names, pl.String),
+            null_values="",
+            truncate_ragged_lines=False,
+        )
+    except pl.exceptions.PolarsError as error:
+        return str(error).splitlines()[0]
 
 
 def _read(path: Path, offset: int, header_row: int) -> bytes:

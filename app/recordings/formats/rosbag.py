@@ -11,8 +11,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from rosbags.highlevel import AnyReader
-from rosbags.typesys import Stores, get_typestore
 
 from app.errors import FileFormatError
 from app.recordings.formats._frames import table_of
@@ -62,6 +60,9 @@ class RosBag:
 
 def _messages(path: Path) -> tuple[np.ndarray, list[str], dict[str, np.ndarray]]:
     """Times [s] (m,), joint names, and position, speed, effort (m, n) with NaN where a message has none."""
+    from rosbags.highlevel import AnyReader  # slow to load, and every file asks this module first
+    from rosbags.typesys import Stores, get_typestore
+
     with AnyReader([path], default_typestore=get_typestore(Stores.LATEST)) as reader:
         wanted = [c for c in reader.connections if c.msgtype == MESSAGE]
         if not wanted:
