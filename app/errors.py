@@ -149,7 +149,16 @@ class StorageError(TeachframeError):
 
 
 class ActionRefusedError(TeachframeError):
-    """The session is not in a state that allows this action; says what to do instead."""
+    """The session is not in a state that allows this action; says what to do instead.
+
+    Args:
+        message: why, in one sentence.
+        said: the same as a phrase that speaks other languages too, where there is one.
+    """
+
+    def __init__(self, message: str, *, said: object = None):
+        self.said = said
+        super().__init__(message)
 
 
 def one_line(text: str, limit: int = 600) -> str:

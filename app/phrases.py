@@ -11,6 +11,7 @@ things). `en.toml` is complete; what another language lacks comes in English.
 from __future__ import annotations
 
 import tomllib
+import unicodedata
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -82,6 +83,12 @@ class Phrase:
 
     def __str__(self) -> str:
         return self.text()
+
+
+def padded(text: str, width: int) -> str:
+    """Spaces to the left up to a width in columns, or to the right where it is negative: Chinese takes two each."""
+    gap = " " * (abs(width) - sum(2 if unicodedata.east_asian_width(c) in "WF" else 1 for c in text))
+    return text + gap if width < 0 else gap + text
 
 
 def _flat(prefix: str, table: dict[str, Any]) -> Iterator[tuple[str, str]]:

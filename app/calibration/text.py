@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import unicodedata
-
 import numpy as np
 
 from app.calibration.captures import of_role, stack
@@ -14,6 +12,7 @@ from app.calibration.tool import METHODS
 from app.calibration.wording import FALLBACK, TEXTS, Phrase, name_of, phrase
 from app.errors import DegenerateGeometryError
 from app.geometry import CONVENTIONS
+from app.phrases import padded
 from app.units import deg, mm
 
 
@@ -96,7 +95,7 @@ class _Page:
         head = t("touch_head") + (t("touch_head_left") if left else "")
         lines = [(head + (t("touch_head_weight") if weighted else "")).rstrip()]
         for i, distance in enumerate(mm(result.per_point)):
-            mark = _padded(t("worst") if i == result.worst else "", 21)
+            mark = padded(t("worst") if i == result.worst else "", -21)
             line = f"{i + 1:>5}{result.rows[i]:>6}{distance:>15.3f} {mark}"
             if left:
                 shown = (
@@ -178,9 +177,3 @@ class _Page:
 
 def _list(names: tuple[str, ...]) -> Phrase | str:
     return names[0] if len(names) == 1 else phrase("page.and", several=", ".join(names[:-1]), last=names[-1])
-
-
-def _padded(text: str, width: int) -> str:
-    """Filled with blanks to a width in columns of a terminal, where Chinese characters take two."""
-    taken = sum(2 if unicodedata.east_asian_width(c) in "WF" else 1 for c in text)
-    return text + " " * max(width - taken, 0)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from app.calibration.base.relation import Relation
-from app.errors import ActionRefusedError
+from app.calibration.base.wording import refused
 from app.simulation.tracker_cell import CellArm, TrackerCell
 
 POINTER = 0.22  # share of the reach: length of the pointer on each flange
@@ -49,7 +49,7 @@ def meet(cell: TrackerCell, relation: Relation) -> Meeting:
     """
     T12 = relation.T_base1_base2
     if T12 is None:
-        raise ActionRefusedError("there is no relation to send the tools by")
+        raise refused("no_relation")
     one, two = cell.arms
     frame_1, frame_2 = one.T_world_frame, two.T_world_frame
     between = frame_1.inverse().apply(frame_2.position)
@@ -67,7 +67,7 @@ def meet(cell: TrackerCell, relation: Relation) -> Meeting:
             tips = np.array([a.flange(q).apply(pointer(a)) for a, q in ((one, found[0]), (two, found[1]))])
             j = _covariance(relation, told_1)
             return Meeting((found[0], found[1]), tips, float(np.linalg.norm(tips[0] - tips[1])), j)
-    raise ActionRefusedError("no point between the arms that both tools reach")
+    raise refused("no_meeting")
 
 
 def _covariance(relation: Relation, p_base1: np.ndarray) -> float:

@@ -8,6 +8,7 @@ import numpy as np
 
 from app.calibration.base.frame import adjoint
 from app.calibration.base.poses import PoseBase
+from app.calibration.base.wording import remark
 from app.calibration.result import Warning_
 from app.geometry import Pose
 from app.kinematics import RobotModel
@@ -61,12 +62,7 @@ def relate_poses(
     back = adjoint(T12.inverse())
     covariance = back @ first.covariance @ back.T + second.covariance
     if not share_first_body(*robots):
-        note = Warning_(
-            "tracker_unchecked",
-            "nothing in these files would show a tracker that moved between them",
-            "measure three fixed points with both",
-        )
-        return PoseRelation(T12, covariance, (note,))
+        return PoseRelation(T12, covariance, (remark("tracker_unchecked"),))
     apart, turn = float(np.linalg.norm(T12.position)), float(np.linalg.norm(T12.rotvec))
     open_by = float(np.sqrt(np.trace(covariance[:3, :3]))), float(np.sqrt(np.trace(covariance[3:, 3:])))
     beyond = (
@@ -75,24 +71,19 @@ def relate_poses(
     )
     if not any(beyond):
         return PoseRelation(T12, covariance, ())
-    name = robots[0].joints[0].name
-    return PoseRelation(
-        None,
-        covariance,
-        (
-            Warning_(
-                "tracker_moved",
-                f"both descriptions begin with one first axis ({name}), which stood at {deg(joint1[0]):.4f} and "
-                f"{deg(joint1[1]):.4f} degrees, so both recordings must give one and the same base; they give two, "
-                f"{mm(apart):.0f} mm and {deg(turn):.2f} degrees apart, where the fits leave "
-                f"{mm(open_by[0]):.0f} mm and {deg(open_by[1]):.3f} degrees open: the "
-                f"instrument's frame is another one in each file, and no "
-                f"measured point is common to both, so T_base1_base2 cannot be had from them",
-                "record both arms with the instrument in one place, or three fixed points in each file",
-                severe=True,
-            ),
-        ),
+    seen = remark(
+        "tracker_moved",
+        "tracker_poses",
+        severe=True,
+        name=robots[0].joints[0].name,
+        first=deg(joint1[0]),
+        second=deg(joint1[1]),
+        apart=mm(apart),
+        turn=deg(turn),
+        open=mm(open_by[0]),
+        open_turn=deg(open_by[1]),
     )
+    return PoseRelation(None, covariance, (seen,))
 
 
 def pose_warnings(base: PoseBase) -> tuple[Warning_, ...]:
@@ -101,12 +92,11 @@ def pose_warnings(base: PoseBase) -> tuple[Warning_, ...]:
     if worst < _WEAK:
         return ()
     return (
-        Warning_(
+        remark(
             "weak_poses",
-            f"the base's place is open by {mm(worst):.1f} mm (its directions by "
-            f"{deg(float(np.sqrt(np.trace(base.covariance[3:, 3:])))):.3f} degrees): the wrist turned by no more than "
-            f"{deg(base.wrist):.1f} degrees over all poses, so that moving the base and moving the reflector on the "
-            f"flange look almost alike (condition {base.fit.condition:.0f})",
-            "add poses with the wrist turned by 30 degrees or more about two axes",
+            place=mm(worst),
+            turn=deg(float(np.sqrt(np.trace(base.covariance[3:, 3:])))),
+            wrist=deg(base.wrist),
+            condition=base.fit.condition,
         ),
     )

@@ -10,7 +10,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from app.errors import DegenerateGeometryError, TooFewPointsError
+from app.calibration.base.wording import degenerate
+from app.errors import TooFewPointsError
 from app.estimation import Fit, gauss_newton
 from app.geometry import Pose, angle_between, exp_so3, fit_rigid, nearest_rotation, skew
 
@@ -61,17 +62,10 @@ def base_from_poses(rotations: np.ndarray, positions: np.ndarray, measured: np.n
     """
     n = len(measured)
     if n < FEWEST:
-        raise TooFewPointsError(
-            f"a base from poses needs {FEWEST} of them, got {n}", rank=n, needed=FEWEST, code="too_few"
-        )
+        raise degenerate("too_few", "few_poses", kind=TooFewPointsError, rank=n, needed=FEWEST, count=n)
     fit = _fit(rotations, positions, measured)
     if fit.rank < 9:
-        raise DegenerateGeometryError(
-            "these poses leave the base or the reflector's place open",
-            rank=fit.rank,
-            needed=9,
-            advice="turn the wrist more between poses",
-        )
+        raise degenerate("degenerate", "open_poses", rank=fit.rank, needed=9)
     heldout = np.empty(n)
     folds = np.arange(n) % FOLDS
     for fold in range(FOLDS):

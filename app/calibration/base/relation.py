@@ -10,9 +10,11 @@ import numpy as np
 from app.calibration.base.checks import look
 from app.calibration.base.frame import adjoint, point_jacobian
 from app.calibration.base.result import BaseCalibration
+from app.calibration.base.wording import phrase
 from app.calibration.result import Warning_
 from app.errors import DegenerateGeometryError
 from app.geometry import Pose, fit_rigid
+from app.phrases import Phrase
 
 _ENOUGH = 3  # fixed points for a rigid motion
 
@@ -59,7 +61,7 @@ class Relation:
     covariance_meeting: np.ndarray
     drift: Drift | None = None
     warnings: tuple[Warning_, ...] = ()
-    notes: tuple[str, ...] = ()
+    notes: tuple[Phrase, ...] = ()
 
     @property
     def sigma_meeting(self) -> float:
@@ -93,14 +95,7 @@ def relate(first: BaseCalibration, second: BaseCalibration, meeting: np.ndarray 
     covariance = back @ first.covariance @ back.T + second.covariance + extra
     at = point_jacobian(T12.inverse().apply(meeting))
     there = T12.rotation @ at @ covariance @ at.T @ T12.rotation.T
-    notes = (
-        ()
-        if drift is not None
-        else (
-            "nothing in these files would show a tracker that moved between the robots: measure three fixed "
-            "points with both (rows of axis 0 with a name)",
-        )
-    )
+    notes = () if drift is not None else (phrase("note.unchecked"),)
     relation = Relation(None if lost else T12, covariance, first, second, meeting, there, drift, notes=notes)
     return replace(relation, warnings=tuple(look("pair", relation)))
 

@@ -11,9 +11,11 @@ import numpy as np
 from app.calibration.base.arcfit import ArcFit
 from app.calibration.base.relation import Relation
 from app.calibration.base.result import BaseCalibration
+from app.calibration.base.wording import TEXTS
 from app.calibration.result import Warning_
 from app.geometry import Pose
 from app.geometry.conventions import convention
+from app.phrases import FALLBACK, Phrase, padded
 from app.units import deg, mm
 
 FORMAT = "teachframe.base/1"
@@ -66,7 +68,7 @@ def details_json(base: BaseCalibration) -> dict[str, Any]:
         "T_tracker_maker": None,
         "T_base_maker": None,
         "robot": base.source.robot,
-        "notes": list(base.notes),
+        "notes": [str(note) for note in base.notes],
     }
     if base.maker is not None:
         out |= {
@@ -106,7 +108,7 @@ def base_json(bases: Sequence[BaseCalibration], relation: Relation | None) -> di
             "meeting_mm": mm(relation.meeting).tolist(),
             "sigma_meeting_mm": mm(relation.sigma_meeting),
             "covariance_m_rad": relation.covariance.tolist(),
-            "notes": list(relation.notes),
+            "notes": [str(note) for note in relation.notes],
         }
     return out
 
@@ -118,47 +120,59 @@ def pose_lines(pose: Pose) -> str:
     return f"{x:>11.3f} {y:>11.3f} {z:>11.3f} mm   A {a:>9.4f}  B {b:>9.4f}  C {c:>9.4f} deg"
 
 
-def base_text(base: BaseCalibration) -> str:
+def sigma_line(position: np.ndarray, rotation: np.ndarray, frame: str, language: str) -> str:
+    """The uncertainty under a pose: (3,) [m] and (3,) [rad] along and about its axes."""
+    sp, sr = mm(position), deg(rotation)
+    about = TEXTS.text("report.about", language, x=float(sr[0]), y=float(sr[1]), z=float(sr[2]))
+    return f"                ± {sp[0]:>11.3f} {sp[1]:>11.3f} {sp[2]:>11.3f} mm   {about}   {frame}"
+
+
+def remark_lines(
+    warnings: Sequence[Warning_], notes: Sequence[Phrase] = (), language: str = FALLBACK
+) -> list[str]:
+    """What the checks found and what no check can settle."""
+    found = [f"  ! {w.code}: {w.said(language)}" for w in warnings]
+    return found + [f"  · {note.text(language)}" for note in notes]
+
+
+def base_text(base: BaseCalibration, language: str = FALLBACK) -> str:
     """What an operator reads about one robot."""
+
+    def t(key: str, **fields: Any) -> str:
+        return TEXTS.text(f"report.{key}", language, **fields)
+
     lines = [f"{base.source.path.name}"]
-    lines.append(
-        f"  {'axis':<6}{'rows':>5}{'arc deg':>9}{'radius mm':>12}{'rms mm':>9}{'axis ± deg':>12}{'centre ± mm':>13}"
-    )
+    heads = (("rows", 5), ("arc", 9), ("radius", 12), ("rms", 9), ("tilt", 12), ("centre", 13))
+    lines.append(f"  {padded(t('axis'), -6)}" + "".join(padded(t(key), width) for key, width in heads))
     lines += [
         f"  {a.arc.axis:<6}{int(a.used.sum()):>5}{deg(a.length):>9.1f}{mm(a.radius):>12.3f}{mm(a.rms):>9.4f}"
         f"{deg(a.sigma_axis):>12.5f}{mm(a.sigma_centre):>13.4f}"
         for a in base.arcs
     ]
-    sp, sr = mm(base.sigma_position), deg(base.sigma_rotation)
     lines.append(f"  T_tracker_base   {pose_lines(base.T_tracker_base)}")
-    lines.append(
-        f"                ± {sp[0]:>11.3f} {sp[1]:>11.3f} {sp[2]:>11.3f} mm   about X {sr[0]:.4f}, Y {sr[1]:.4f}, "
-        f"Z {sr[2]:.4f} deg   (Z along axis 1, X to the work space, origin at the height of axis 2)"
-    )
+    lines.append(sigma_line(base.sigma_position, base.sigma_rotation, t("frame"), language))
     if base.maker is not None:
-        lines.append(
-            f"  T_tracker_maker  {pose_lines(base.maker.T_tracker_maker)}   ({base.maker.robot}'s own base)"
-        )
-    beside = f" (description {mm(base.maker.offset_nominal):.2f})" if base.maker else ""
-    lines.append(
-        f"  axes 1 and 2     {mm(base.offset):.3f} ± {mm(base.offset_sigma):.3f} mm apart{beside}, at "
-        f"{deg(base.angle):.4f} ± {deg(base.angle_sigma):.4f} degrees"
+        whose = t("maker", robot=base.maker.robot)
+        lines.append(f"  T_tracker_maker  {pose_lines(base.maker.T_tracker_maker)}   {whose}")
+    beside = {"nominal": mm(base.maker.offset_nominal)} if base.maker else {}
+    apart = t(
+        "apart_beside" if beside else "apart",
+        offset=mm(base.offset),
+        offset_sigma=mm(base.offset_sigma),
+        angle=deg(base.angle),
+        angle_sigma=deg(base.angle_sigma),
+        **beside,
     )
-    lines += [f"  ! {w.code}: {w}" for w in base.warnings]
-    lines += [f"  · {note}" for note in base.notes]
-    return "\n".join(lines)
+    lines.append(f"  {padded(t('axes'), -17)}{apart}")
+    return "\n".join(lines + remark_lines(base.warnings, base.notes, language))
 
 
-def relation_text(relation: Relation) -> str:
+def relation_text(relation: Relation, language: str = FALLBACK) -> str:
     """What an operator reads about two robots."""
-    lines = ["two robots"]
+    lines = [TEXTS.text("report.two", language)]
     if relation.T_base1_base2 is not None:
         x, y, z = mm(relation.meeting)
+        miss = mm(relation.sigma_meeting)
         lines.append(f"  T_base1_base2    {pose_lines(relation.T_base1_base2)}")
-        lines.append(
-            f"  both tools sent to ({x:.0f}, {y:.0f}, {z:.0f}) mm of base 1 miss each other by "
-            f"{mm(relation.sigma_meeting):.3f} mm (one sigma)"
-        )
-    lines += [f"  ! {w.code}: {w}" for w in relation.warnings]
-    lines += [f"  · {note}" for note in relation.notes]
-    return "\n".join(lines)
+        lines.append("  " + TEXTS.text("report.meeting", language, x=x, y=y, z=z, miss=miss))
+    return "\n".join(lines + remark_lines(relation.warnings, relation.notes, language))

@@ -5,15 +5,9 @@ from __future__ import annotations
 from typing import Any
 
 from app.calibration.base.sixaxis import ArmGeometry, Quantity
+from app.calibration.base.wording import TEXTS
+from app.phrases import FALLBACK, padded
 from app.units import deg, mm
-
-_NAMES = {
-    "a": "distance of axes",
-    "twist": "angle of axes",
-    "lean": "lean of axes",
-    "d": "step along axis",
-    "zero": "zero of joint",
-}
 
 
 def _in(quantity: Quantity, value: float | None) -> float | None:
@@ -44,14 +38,19 @@ def arm_json(arm: ArmGeometry) -> dict[str, Any]:
     }
 
 
-def arm_text(arm: ArmGeometry) -> str:
+def arm_text(arm: ArmGeometry, language: str = FALLBACK) -> str:
     """One row a dimension; what stands out by more than three sigma is marked."""
+
+    def t(key: str, **fields: Any) -> str:
+        return TEXTS.text(f"arm.{key}", language, **fields)
+
+    heads = (("measured", 12), ("sigma", 10), ("described", 12), ("error", 10))
     lines = [
-        "  the arm, axis by axis",
-        f"  {'':<23}{'measured':>12}{'± sigma':>10}{'described':>12}{'error':>10}",
+        "  " + t("title"),
+        f"  {'':<23}" + "".join(padded(t(key), width) for key, width in heads),
     ]
     for q in arm.quantities:
-        pair = f"{q.axis} and {q.axis + 1}" if q.name in ("a", "twist", "lean") else f"{q.axis}"
+        pair = t("pair", first=q.axis, second=q.axis + 1) if q.name in ("a", "twist", "lean") else f"{q.axis}"
         unit = "deg" if q.angular else "mm"
         nominal, error = _in(q, q.nominal), _in(q, q.error)
         beside = (
@@ -59,13 +58,13 @@ def arm_text(arm: ArmGeometry) -> str:
         )
         telling = q.error is not None and abs(q.error) > 3.0 * q.sigma
         lines.append(
-            f"  {_NAMES[q.name]:<17}{pair:<8}{_in(q, q.measured):>10.4f}{_in(q, q.sigma):>10.4f}{beside} {unit}"
-            f"{'  *' if telling else ''}"
+            f"  {padded(t(q.name), -17)}{padded(pair, -8)}{_in(q, q.measured):>10.4f}{_in(q, q.sigma):>10.4f}{beside} "
+            f"{unit}{'  *' if telling else ''}"
         )
     lines += [
-        f"  axis {t.axis} turns {t.slope:.6f} ± {t.sigma:.6f} times what is shown, within {deg(t.scatter):.4f} degrees"
-        for t in arm.turning
+        "  " + t("turning", axis=r.axis, slope=r.slope, sigma=r.sigma, scatter=deg(r.scatter))
+        for r in arm.turning
     ]
     if any(q.error is not None for q in arm.quantities):
-        lines.append("  * more than three sigma from the description")
+        lines.append("  * " + t("star"))
     return "\n".join(lines)

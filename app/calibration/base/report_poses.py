@@ -10,8 +10,10 @@ import numpy as np
 
 from app.calibration.base.poserelation import PoseRelation
 from app.calibration.base.poses import PoseBase
-from app.calibration.base.report import FORMAT, matrix_mm, pose_lines, warnings_json
+from app.calibration.base.report import FORMAT, matrix_mm, pose_lines, remark_lines, sigma_line, warnings_json
+from app.calibration.base.wording import TEXTS
 from app.calibration.result import Warning_
+from app.phrases import FALLBACK, padded
 from app.units import deg, mm
 
 
@@ -54,25 +56,28 @@ def poses_text(
     bases: Sequence[PoseBase],
     warnings: Sequence[Warning_],
     relation: PoseRelation | None,
+    language: str = FALLBACK,
 ) -> str:
     """A page for a person."""
+
+    def t(key: str, **fields: Any) -> str:
+        return TEXTS.text(f"poses.{key}", language, **fields)
+
     lines = []
     for path, name, b in zip(files, robots, bases, strict=True):
-        sp, sr = mm(np.sqrt(np.diag(b.covariance)[:3])), deg(np.sqrt(np.diag(b.covariance)[3:]))
+        sigma = np.sqrt(np.diag(b.covariance))
         x, y, z = mm(b.reflector)
+        worst = mm(float(b.heldout.max()))
         lines += [
-            f"{path.name}: base of {name} from {b.count} poses (several axes moved at a time, so not from arcs)",
+            t("title", file=path.name, robot=name, count=b.count),
             f"  T_tracker_base   {pose_lines(b.T_tracker_base)}",
-            f"                ± {sp[0]:>11.3f} {sp[1]:>11.3f} {sp[2]:>11.3f} mm   about X {sr[0]:.4f}, Y {sr[1]:.4f}, "
-            f"Z {sr[2]:.4f} deg   (base link of the description)",
-            f"  reflector at     {x:.2f}, {y:.2f}, {z:.2f} mm in the flange",
-            f"  poses left out are predicted to {mm(b.heldout_rms):.3f} mm rms, worst {mm(float(b.heldout.max())):.3f} "
-            f"(a coordinate of the poses fitted: {mm(b.fit.rms):.3f})",
+            sigma_line(sigma[:3], sigma[3:], t("frame"), language),
+            f"  {padded(t('reflector'), -17)}{t('reflector_at', x=x, y=y, z=z)}",
+            "  " + t("heldout", rms=mm(b.heldout_rms), worst=worst, fit=mm(b.fit.rms)),
         ]
     found = [*warnings, *(relation.warnings if relation else ())]
     if relation is not None:
-        lines.append("two robots")
+        lines.append(TEXTS.text("report.two", language))
         if relation.T_base1_base2 is not None:
             lines.append(f"  T_base1_base2    {pose_lines(relation.T_base1_base2)}")
-    lines += [f"  ! {w.code}: {w}" for w in found]
-    return "\n".join(lines)
+    return "\n".join(lines + remark_lines(found, language=language))

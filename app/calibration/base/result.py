@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -11,6 +11,7 @@ from app.calibration.base.arcs import Arcs
 from app.calibration.base.frame import point_jacobian
 from app.calibration.result import Warning_
 from app.geometry import Pose
+from app.phrases import Phrase
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,7 +89,7 @@ class BaseCalibration:
     maker: MakerFrame | None = None
     others: tuple[ArcFit, ...] = ()
     warnings: tuple[Warning_, ...] = ()
-    notes: tuple[str, ...] = field(default=())
+    notes: tuple[Phrase, ...] = ()
 
     def __post_init__(self):
         for name in ("covariance", "towards"):

@@ -25,9 +25,11 @@ from app.calibration.base.sequence import (
 )
 from app.calibration.base.sixaxis import ArmGeometry, arm_geometry
 from app.calibration.base.solve import solve_base
+from app.calibration.base.wording import remark
 from app.calibration.result import Warning_
 from app.errors import DegenerateGeometryError, InputError, MissingColumnError
 from app.kinematics import RobotModel, load_robot
+from app.phrases import FALLBACK
 from app.recordings import Table, read_table
 from app.recordings.point_lists import KIND, with_unit
 from app.units import from_mm
@@ -48,14 +50,14 @@ class ArcResult:
             details["arm"] = None if arm is None else report_arm.arm_json(arm)
         return out
 
-    def to_text(self) -> str:
+    def to_text(self, language: str = FALLBACK) -> str:
         """A page for a person."""
         parts = []
         for base, arm in zip(self.bases, self.arms, strict=True):
-            parts.append(report.base_text(base))
+            parts.append(report.base_text(base, language))
             if arm is not None:
-                parts.append(report_arm.arm_text(arm))
-        return "\n".join(parts + ([report.relation_text(self.relation)] if self.relation else []))
+                parts.append(report_arm.arm_text(arm, language))
+        return "\n".join(parts + ([report.relation_text(self.relation, language)] if self.relation else []))
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,9 +74,11 @@ class PoseResult:
         """teachframe.base/1 without arcs."""
         return report_poses.poses_json(self.files, self.robots, self.bases, self.warnings, self.relation)
 
-    def to_text(self) -> str:
+    def to_text(self, language: str = FALLBACK) -> str:
         """A page for a person."""
-        return report_poses.poses_text(self.files, self.robots, self.bases, self.warnings, self.relation)
+        return report_poses.poses_text(
+            self.files, self.robots, self.bases, self.warnings, self.relation, language
+        )
 
 
 def run_base(
@@ -158,7 +162,7 @@ def description(
     try:
         return load_robot(named, relative_to=path.parent), None
     except InputError as error:
-        return None, Warning_("robot", f"no maker's frame: {error}", "give --robot")
+        return None, remark("robot", error=error)
 
 
 def _from_poses(

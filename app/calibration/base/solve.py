@@ -12,11 +12,11 @@ from app.calibration.base.checks import look
 from app.calibration.base.frame import base_frames
 from app.calibration.base.maker import maker_frame
 from app.calibration.base.result import BaseCalibration
+from app.calibration.base.wording import phrase
 from app.calibration.base.zero import zero_place
-from app.errors import DegenerateGeometryError
 from app.geometry import Pose
-from app.geometry.line import PARALLEL
 from app.kinematics import RobotModel
+from app.phrases import Phrase
 from app.units import from_um
 
 SMALLEST_NOISE = from_um(
@@ -62,9 +62,6 @@ def _frame(source: Arcs, by_axis: dict[int, ArcFit]) -> BaseCalibration:
         unclear = _UNCLEAR_SHARE * first.radius
     one, two = first.axes, second.axes
     sine = float(np.linalg.norm(np.cross(one.direction, two.direction)))
-    if sine < PARALLEL:
-        look("parallel", sine)
-        raise DegenerateGeometryError("axis 1 and axis 2 are parallel", code="parallel")
     look("parallel", sine)
     f = base_frames(one, two, towards, unclear=unclear)
     return BaseCalibration(
@@ -83,11 +80,14 @@ def _frame(source: Arcs, by_axis: dict[int, ArcFit]) -> BaseCalibration:
     )
 
 
-def _notes(base: BaseCalibration) -> tuple[str, ...]:
+def _notes(base: BaseCalibration) -> tuple[Phrase, ...]:
     notes = []
     if base.source.towards is None:
-        notes.append("X looks towards the middle of the arc of axis 1 (no towards_workspace_mm in the file)")
-    silent = [str(found.arc.axis) for found in base.arcs if found.arc.angles is None]
+        notes.append(phrase("note.towards"))
+    silent = [found.arc.axis for found in base.arcs if found.arc.angles is None]
     if silent:
-        notes.append(f"no angles for axis {' and '.join(silent)}: rows count as the order of positive motion")
+        axes: object = silent[0]
+        for axis in silent[1:]:
+            axes = phrase("list.two", first=axes, second=axis)
+        notes.append(phrase("note.no_angles", axes=axes))
     return tuple(notes)

@@ -17,9 +17,10 @@ from app.calibration.base.checks.too_few import NEEDED
 from app.calibration.base.relation import Relation, relate
 from app.calibration.base.result import BaseCalibration
 from app.calibration.base.solve import solve_base
+from app.calibration.base.wording import phrase, refused, remark
 from app.calibration.result import Warning_
-from app.errors import ActionRefusedError
 from app.kinematics import RobotModel
+from app.phrases import Phrase
 from app.units import deg, mm
 
 NESTS, ZERO, TURN = "nests", "zero", "turn"
@@ -35,7 +36,6 @@ class Step:
         robot: 1 or 2.
         kind: `nests`, `zero` or `turn`.
         axis: 1 or 2 where one is turned, else 0.
-        title, instruction: what the operator reads.
         least: records it needs.
     """
 
@@ -43,30 +43,28 @@ class Step:
     robot: int
     kind: str
     axis: int
-    title: str
-    instruction: str
     least: int
+
+    @property
+    def title(self) -> Phrase:
+        """What the operator reads of it."""
+        return phrase(f"step.{self.kind}", robot=self.robot, axis=self.axis)
+
+    @property
+    def instruction(self) -> Phrase:
+        """What is to be done."""
+        return phrase(f"step.{self.kind}_do", robot=self.robot, axis=self.axis)
 
 
 def steps(robots: int = 2, nests: bool = True) -> tuple[Step, ...]:
     """The procedure for one or two robots, with or without fixed points."""
 
     def of(robot: int) -> Iterator[Step]:
-        name = f"Robot {robot}"
         if nests:
-            yield Step(
-                f"{robot}.nests", robot, NESTS, 0, f"{name}: fixed points",
-                "Measure the nests on the floor: they show if the tracker moves.", _FEWEST_NESTS,
-            )  # fmt: skip
+            yield Step(f"{robot}.nests", robot, NESTS, 0, _FEWEST_NESTS)
         for axis in (1, 2):
-            yield Step(
-                f"{robot}.zero{axis}", robot, ZERO, 0, f"{name}: zero position",
-                "Bring all axes to zero and measure the reflector once.", 1,
-            )  # fmt: skip
-            yield Step(
-                f"{robot}.axis{axis}", robot, TURN, axis, f"{name}: axis {axis} alone",
-                f"Turn axis {axis} only, as far as the tracker sees, and measure every few degrees.", NEEDED,
-            )  # fmt: skip
+            yield Step(f"{robot}.zero{axis}", robot, ZERO, 0, 1)
+            yield Step(f"{robot}.axis{axis}", robot, TURN, axis, NEEDED)
 
     return tuple(step for robot in range(1, robots + 1) for step in of(robot))
 
@@ -127,11 +125,11 @@ class BaseWizard:
         """
         step = self.step
         if step is None:
-            raise ActionRefusedError("every step is done: calculate, or undo the last")
+            raise refused("done_measuring")
         if not np.isfinite(point).all():
-            raise ActionRefusedError("nothing was measured")
+            raise refused("nothing_measured")
         if step.kind == NESTS and not name:
-            raise ActionRefusedError("a fixed point needs a name")
+            raise refused("no_name")
         kept = self.records
         if step.kind == ZERO:  # measured again, the newer one counts
             kept = tuple(r for r in kept if r.step != step.key)
@@ -145,10 +143,10 @@ class BaseWizard:
         """
         step = self.step
         if step is None:
-            raise ActionRefusedError("every step is done")
+            raise refused("done")
         have = len(self.of(step.key))
         if have < step.least:
-            raise ActionRefusedError(f"{step.title}: {have} of at least {step.least} recorded")
+            raise refused("records", step=step.title, have=have, least=step.least)
         return replace(self, index=self.index + 1)
 
     def undo(self) -> BaseWizard:
@@ -161,7 +159,7 @@ class BaseWizard:
         if step is not None and self.of(step.key):
             return replace(self, records=self.records[:-1])
         if self.index == 0:
-            raise ActionRefusedError("nothing to undo")
+            raise refused("undo")
         return replace(self, index=self.index - 1)
 
     def arcs(self, robot: int, towards: np.ndarray | None = None, senses: tuple[int, int] = (1, 1)) -> Arcs:
@@ -204,7 +202,7 @@ class BaseWizard:
             DegenerateGeometryError: the records cannot give it.
         """
         if not self.done:
-            raise ActionRefusedError("not every step is done")
+            raise refused("not_done")
         fronts = towards or tuple(None for _ in models)
         bases = []
         for k, (model, sense, front) in enumerate(zip(models, senses, fronts, strict=True), 1):
@@ -222,12 +220,13 @@ class BaseWizard:
         if noise <= 0 or gap <= 6.0 * noise:
             return ()
         return (
-            Warning_(
+            remark(
                 "reflector_moved",
-                f"robot {robot}: back at zero the reflector is {mm(gap):.3f} mm away from where it was (noise "
-                f"{mm(noise):.3f}): it moved, or the tracker did, between axis 1 and axis 2",
-                "seat the reflector and the tracker firmly and record this robot again",
+                "reflector_zero",
                 severe=True,
+                robot=robot,
+                gap=mm(gap),
+                noise=mm(noise),
             ),
         )
 

@@ -9,52 +9,15 @@ light, next, verify, page, sheet, …
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
 
-from app.calibration.result import Warning_
-from app.errors import DegenerateGeometryError
-from app.phrases import FALLBACK, Phrase, Texts
+from app.calibration.wording.family import Family
+from app.phrases import FALLBACK, Phrase
 
-__all__ = ["FALLBACK", "TEXTS", "Phrase", "degenerate", "name_of", "phrase", "remark"]
+__all__ = ["FALLBACK", "TEXTS", "Family", "Phrase", "degenerate", "name_of", "phrase", "remark"]
 
-TEXTS = Texts(Path(__file__).parent)
-
-
-def phrase(key: str, /, **fields: Any) -> Phrase:
-    """A sentence of calibration's that is not in words yet."""
-    return Phrase(TEXTS, key, fields)
-
-
-def remark(code: str, key: str = "", *, severe: bool = False, **fields: Any) -> Warning_:
-    """A check's finding: the texts `check.KEY` and `check.KEY_do` with the same fields; `key` is the code's own
-    where it is not given."""
-    seen = phrase(f"check.{key or code}", **fields)
-    todo = phrase(f"check.{key or code}_do", **fields)
-    return Warning_(code, str(seen), str(todo), severe, phrases=(seen, todo))
-
-
-def degenerate(
-    code: str,
-    key: str = "",
-    *,
-    kind: type[DegenerateGeometryError] = DegenerateGeometryError,
-    rank: int,
-    needed: int,
-    unseen: str | None = None,
-    **fields: Any,
-) -> DegenerateGeometryError:
-    """Points that cannot determine what is asked: the texts `refused.KEY` and `refused.KEY_do`."""
-    seen = phrase(f"refused.{key or code}", **fields)
-    todo = phrase(f"refused.{key or code}_do", **fields)
-    return kind(
-        str(seen),
-        rank=rank,
-        needed=needed,
-        unseen=unseen,
-        advice=str(todo),
-        code=code,
-        said=phrase("warning.said", seen=seen, todo=todo),
-    )
+_FAMILY = Family(Path(__file__).parent)
+TEXTS = _FAMILY.texts
+phrase, remark, degenerate = _FAMILY.phrase, _FAMILY.remark, _FAMILY.degenerate
 
 
 def name_of(code: str, language: str = FALLBACK) -> str:

@@ -39,6 +39,9 @@ class Command:
     json: bool = False
     """One JSON object instead of the table."""
 
+    language: Literal["en", "zh"] = "en"
+    """Of the table."""
+
     def run(self) -> int:
         import msgspec
 
@@ -51,5 +54,5 @@ class Command:
             meeting_mm=self.at,
             unit=self.unit,
         )
-        print(msgspec.json.encode(result.to_json()).decode() if self.json else result.to_text())
+        print(msgspec.json.encode(result.to_json()).decode() if self.json else result.to_text(self.language))
         return 0

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 from app.calibration.base.checks import Check
 from app.calibration.base.result import BaseCalibration
+from app.calibration.base.wording import remark
 from app.calibration.result import Warning_
 from app.units import deg, from_deg
 
@@ -17,12 +18,7 @@ _WORTH_NAMING = from_deg(0.001)
 def _frame(base: BaseCalibration) -> Iterator[Warning_]:
     off = base.angle - math.pi / 2.0
     if abs(off) > max(SIGMAS * base.angle_sigma, _WORTH_NAMING):
-        yield Warning_(
-            CHECK.key,
-            f"axis 1 and axis 2 stand at {deg(base.angle):.4f} degrees, {abs(deg(off)):.4f} away from square; the "
-            f"measurement leaves {deg(base.angle_sigma):.4f} open",
-            "a property of this arm, or another axis moved along",
-        )
+        yield remark(CHECK.key, angle=deg(base.angle), off=abs(deg(off)), sigma=deg(base.angle_sigma))
 
 
 CHECK = Check("axis_angle", "axes not square", {"frame": _frame})

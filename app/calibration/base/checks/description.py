@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from app.calibration.base.checks import Check
 from app.calibration.base.result import BaseCalibration
+from app.calibration.base.wording import remark
 from app.calibration.result import Warning_
 from app.units import deg, from_deg, from_mm, mm
 
@@ -19,12 +20,14 @@ def _frame(base: BaseCalibration) -> Iterator[Warning_]:
     length = base.offset - maker.offset_nominal
     angle = base.angle - maker.angle_nominal
     if abs(length) > _LENGTH + 5 * base.offset_sigma or abs(angle) > _ANGLE + 5 * base.angle_sigma:
-        yield Warning_(
+        yield remark(
             CHECK.key,
-            f"axes 1 and 2 lie {mm(base.offset):.2f} mm apart at {deg(base.angle):.3f} degrees, where {maker.robot} "
-            f"has {mm(maker.offset_nominal):.2f} mm and {deg(maker.angle_nominal):.3f}",
-            "is this the right robot, and did one axis move at a time?",
             severe=True,
+            offset=mm(base.offset),
+            angle=deg(base.angle),
+            robot=maker.robot,
+            nominal_offset=mm(maker.offset_nominal),
+            nominal_angle=deg(maker.angle_nominal),
         )
 
 

@@ -15,6 +15,7 @@ import numpy as np
 
 from app.calibration.base.checks import Check
 from app.calibration.base.result import BaseCalibration
+from app.calibration.base.wording import remark
 from app.calibration.result import Warning_
 from app.units import from_deg
 
@@ -37,23 +38,7 @@ def swapped_likely(base: BaseCalibration) -> bool:
 def _frame(base: BaseCalibration) -> Iterator[Warning_]:
     if base.axis2_along_y > 0 or not np.isfinite(base.axis2_along_y):
         return
-    contradiction = "axis 2 turns about -Y of the frame found, where positive motion turns about +Y"
-    if swapped_likely(base):
-        yield Warning_(
-            "swapped",
-            f"the rows of axis 1 and axis 2 seem to be swapped: {contradiction}, and the circle called axis 2 lies "
-            f"as axis 1's should",
-            "interchange the axis numbers; else check the direction of both arcs",
-            severe=True,
-        )
-        return
-    yield Warning_(
-        CHECK.key,
-        f"{contradiction}: one arc was recorded in the wrong direction, the rows of axis 1 and axis 2 are swapped, or "
-        f"the point in front of the robot is behind it",
-        "check the order of rows or angle_deg, axis1_sense and axis2_sense, towards_workspace_mm",
-        severe=True,
-    )
+    yield remark("swapped" if swapped_likely(base) else CHECK.key, severe=True)
 
 
 CHECK = Check("direction", "directions that contradict each other", {"frame": _frame})

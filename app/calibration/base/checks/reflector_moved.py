@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from app.calibration.base.arcfit import ArcFit
 from app.calibration.base.checks import Check
+from app.calibration.base.wording import remark
 from app.calibration.result import Warning_
 from app.units import mm
 
@@ -13,13 +14,7 @@ from app.units import mm
 def _arc(found: ArcFit) -> Iterator[Warning_]:
     if found.moved_at is None:
         return
-    yield Warning_(
-        CHECK.key,
-        f"axis {found.arc.axis}: from row {found.moved_at} on the reflector sits {mm(found.moved_by):.3f} mm "
-        f"elsewhere; both parts were fitted as circles of their own about one axis",
-        "seat the reflector firmly and record this axis again",
-        severe=True,
-    )
+    yield remark(CHECK.key, severe=True, axis=found.arc.axis, row=found.moved_at, shift=mm(found.moved_by))
 
 
 CHECK = Check("reflector_moved", "the reflector moved during the arc", {"arc": _arc})

@@ -8,6 +8,7 @@ import numpy as np
 
 from app.calibration.base.arcfit import ArcFit
 from app.calibration.base.checks import Check
+from app.calibration.base.wording import remark
 from app.calibration.result import Warning_
 from app.geometry.circle import fit_axis
 from app.units import deg, from_deg, mm
@@ -29,12 +30,14 @@ def _arc(found: ArcFit) -> Iterator[Warning_]:
     if found.length >= SHORT - _SLACK:
         return
     axis, centre = expected(max(int(found.used.sum()), 4), found.radius, found.sigma, _GOOD)
-    yield Warning_(
+    yield remark(
         CHECK.key,
-        f"axis {found.arc.axis}: the arc covers {deg(found.length):.1f} degrees; it leaves its axis open by "
-        f"{deg(found.sigma_axis):.4f} degrees and its centre by {mm(found.sigma_centre):.3f} mm, where 180 degrees "
-        f"would leave {deg(axis):.4f} degrees and {mm(centre):.3f} mm",
-        "turn this axis by 90 degrees or more",
+        axis=found.arc.axis,
+        arc=deg(found.length),
+        tilt=deg(found.sigma_axis),
+        centre=mm(found.sigma_centre),
+        good_tilt=deg(axis),
+        good_centre=mm(centre),
     )
 
 

@@ -9,8 +9,9 @@ import numpy as np
 from app.calibration.base.arcfit import ArcFit
 from app.calibration.base.arcs import Arc
 from app.calibration.base.checks import Check
+from app.calibration.base.wording import degenerate, remark
 from app.calibration.result import Warning_
-from app.errors import DegenerateGeometryError, TooFewPointsError
+from app.errors import TooFewPointsError
 from app.units import from_um, mm
 
 NEEDED = 3
@@ -23,44 +24,28 @@ def _points(arc: Arc) -> tuple[Warning_, ...]:
     for reflector in np.unique(arc.reflectors):
         mine = arc.points[arc.reflectors == reflector]
         if len(mine) < NEEDED:
-            raise TooFewPointsError(
-                f"axis {arc.axis}: {len(mine)} point{'s' if len(mine) != 1 else ''}, a circle needs {NEEDED}",
+            raise degenerate(
+                CHECK.key,
+                "too_few_one" if len(mine) == 1 else "",
+                kind=TooFewPointsError,
                 rank=len(mine),
                 needed=NEEDED,
-                code="too_few",
-                advice="record at least 12 over 90 degrees or more",
+                axis=arc.axis,
+                count=len(mine),
             )
     extent = np.linalg.svd(arc.points - arc.points.mean(axis=0), compute_uv=False)
     if extent[0] < _PLACE:
-        raise DegenerateGeometryError(
-            f"axis {arc.axis}: all points are one place",
-            rank=0,
-            needed=2,
-            code="too_few",
-            advice="turn this axis between the points",
-        )
+        raise degenerate(CHECK.key, "one_place", rank=0, needed=2, axis=arc.axis)
     if extent[1] < _LINE * extent[0]:
-        raise DegenerateGeometryError(
-            f"axis {arc.axis}: the points lie on one line ({mm(extent[1]):.3g} mm across), which fits every circle",
-            rank=1,
-            needed=2,
-            code="too_few",
-            advice="turn this axis further",
-        )
+        raise degenerate(CHECK.key, "one_line", rank=1, needed=2, axis=arc.axis, across=mm(extent[1]))
     return ()
 
 
 def _arc(found: ArcFit) -> Iterator[Warning_]:
     n = int(found.used.sum())
     if n < COMFORTABLE:
-        known = (
-            "" if found.fit.dof > 0 else ", and the noise is assumed to be a tracker's usual 15 um + 6 um/m"
-        )
-        yield Warning_(
-            CHECK.key,
-            f"axis {found.arc.axis}: only {n} points; a wrong one among them would not be seen{known}",
-            "record 12 or more",
-        )
+        key = "" if found.fit.dof > 0 else "too_few_unknown"
+        yield remark(CHECK.key, key, axis=found.arc.axis, count=n)
 
 
 CHECK = Check("too_few", "too few points", {"points": _points, "arc": _arc})

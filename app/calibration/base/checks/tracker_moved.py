@@ -8,6 +8,7 @@ import numpy as np
 
 from app.calibration.base.checks import Check
 from app.calibration.base.relation import Relation
+from app.calibration.base.wording import remark
 from app.calibration.result import Warning_
 from app.units import deg, mm
 
@@ -17,25 +18,22 @@ def _pair(relation: Relation) -> Iterator[Warning_]:
     if drift is None or not drift.moved:
         return
     worst = int(np.argmax(drift.shifts))
-    seen = (
-        f"the tracker moved between the robots: fixed point {drift.names[worst]!r} stands "
-        f"{mm(drift.shifts[worst]):.3f} mm elsewhere in the second file (noise {mm(drift.noise):.3f})"
-    )
+    seen = {
+        "name": drift.names[worst],
+        "shift": mm(drift.shifts[worst]),
+        "noise": mm(drift.noise),
+        "count": len(drift.names),
+    }
     if drift.T_first_second is None:
-        yield Warning_(
-            CHECK.key,
-            f"{seen}; {len(drift.names)} common point(s) do not give the way back, so there is no T_base1_base2",
-            "measure three or more fixed points with both robots, or record both again",
-            severe=True,
-        )
+        yield remark(CHECK.key, "tracker_lost", severe=True, **seen)
         return
     motion = drift.T_first_second
-    yield Warning_(
+    yield remark(
         CHECK.key,
-        f"{seen}; by {len(drift.names)} fixed points it moved {mm(np.linalg.norm(motion.position)):.2f} mm and "
-        f"{deg(np.linalg.norm(motion.rotvec)):.4f} degrees, which T_base1_base2 takes into account",
-        "better record both robots from one place",
         severe=True,
+        moved=mm(np.linalg.norm(motion.position)),
+        turned=deg(np.linalg.norm(motion.rotvec)),
+        **seen,
     )
 
 

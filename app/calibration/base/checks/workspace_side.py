@@ -8,6 +8,7 @@ import numpy as np
 
 from app.calibration.base.checks import Check
 from app.calibration.base.result import BaseCalibration
+from app.calibration.base.wording import remark
 from app.calibration.result import Warning_
 from app.units import mm
 
@@ -20,13 +21,7 @@ def _frame(base: BaseCalibration) -> Iterator[Warning_]:
     limit = 1e-3 if stated else _SHARE * base.first.radius
     if np.abs(reach) > limit:
         return
-    where = "towards_workspace_mm lies" if stated else "the middle of the arc of axis 1 lies"
-    yield Warning_(
-        CHECK.key,
-        f"{where} {mm(abs(reach)):.1f} mm along X, too near to say where the front is; X was taken from the turn of "
-        f"axis 2 instead",
-        "state towards_workspace_mm",
-    )
+    yield remark(CHECK.key, "workspace_side_stated" if stated else "", reach=mm(abs(reach)))
 
 
 CHECK = Check("workspace_side", "no clear front", {"frame": _frame})

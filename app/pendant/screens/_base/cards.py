@@ -80,7 +80,10 @@ def result(pendant: Pendant, run: Run) -> str:
     ]
     out += html.table(arcs, head=(t("base.axis"), t("base.arc"), "r mm", "rms mm", "± "), testid="base-arcs")
     out += (
-        html.notes([("red" if w.severe else "yellow", str(w)) for w in found], testid="base-warnings")
+        html.notes(
+            [("red" if w.severe else "yellow", w.said(pendant.language)) for w in found],
+            testid="base-warnings",
+        )
         if found
         else ""
     )
