@@ -51,12 +51,12 @@ def alternatives_of(study: Study, index: int) -> tuple[Alternative, ...]:
 
 def _level(study: Study, joint: int | None) -> float:
     """What is left over, as a multiple of the noise's variance: a difference counts by so much less."""
-    parts = zip(study.system.parts, study.fit.solution.columns, study.fit.solution.positions, strict=True)
+    solution, system = study.fit.solution, study.system
     levels = []
-    for (part, col, pos), whitener in zip(parts, study.system.whiteners, strict=True):
-        white = part.columns[:, 0] - part.columns[:, col] @ study.fit.solution.theta[pos]
-        levels.append(float(white @ white) / max(np.count_nonzero(whitener.weight), 1))
-    return max(1.0, max(levels) if joint is None else levels[joint])
+    for j in range(system.joints) if joint is None else (joint,):
+        white = system.parts[j].residual(solution.columns[j], solution.theta[solution.positions[j]])
+        levels.append(float(white @ white) / max(np.count_nonzero(system.whiteners[j].weight), 1))
+    return max(1.0, *levels)
 
 
 def _aliases(study: Study, index: int) -> tuple[Alternative, ...]:

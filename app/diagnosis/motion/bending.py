@@ -28,17 +28,16 @@ def bent(system: System, prior: np.ndarray, others: list[Group], group: Group) -
     part, whitener, samples = system.parts[j], system.whiteners[j], system.samples
     solution = solve(system, others, prior)
     col, pos = solution.columns[j], solution.positions[j]
-    z = part.columns[:, col]
-    r = part.columns[:, 0] - z @ solution.theta[pos]
+    left = part.residual(col, solution.theta[pos])
     inverse = solution.covariance[np.ix_(pos, pos)]
 
     def loss(log_value: float) -> float:
         shape = {**group.shape, name: float(np.exp(log_value))}
         c = whitener(samples.pool(law.columns(samples.state, group.where, shape)))
-        cross = c.T @ z
+        cross = part.products(c, col)
         M = c.T @ c - cross @ inverse @ cross.T
         M[np.diag_indices_from(M)] += 1e-9 * np.trace(M) + 1e-300
-        s = c.T @ r
+        s = c.T @ left
         return -float(s @ np.linalg.solve(M, s))
 
     best = minimize_scalar(loss, bounds=bounds, method="bounded", options={"maxiter": 20, "xatol": 1e-3})

@@ -74,7 +74,7 @@ def remains_of(
         count = int(rows.sum())
         if count < 50:
             continue
-        white = (part.columns[:, 0] - part.columns[:, col] @ solution.theta[pos])[rows]
+        white = part.residual(col, solution.theta[pos])[rows]
         level = float(white @ white) / count
         spread = whitener.spread * np.sqrt(max(level, 1e-12))
         rho = whitener.correlation()

@@ -11,7 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.special import gammaincc, gammaln
 
-from app.diagnosis.motion.system import Group, System
+from app.diagnosis.motion.directions import halved
+from app.diagnosis.motion.system import REMEMBERED, Group, System
 
 BLIND = 1e-6  # inverse of the standard deviation given to what cannot be seen
 LEAST_VISIBLE = 0.05  # of a law on one joint
@@ -47,6 +48,17 @@ def solve(
     Args:
         prior: (i, i) information matrix of the leading unknowns.
     """
+    key = tuple(selected)
+    known = system.solutions.pop(key, None)
+    if known is None or known[0] is not prior:
+        known = (prior, _solved(system, selected, prior))
+        if len(system.solutions) >= REMEMBERED:
+            del system.solutions[next(iter(system.solutions))]
+    system.solutions[key] = known  # the one asked for last goes last
+    return known[1]
+
+
+def _solved(system: System, selected: list[Group], prior: np.ndarray) -> Solution:
     A, g, yy = system.normal(selected)
     i = len(prior)
     A[:i, :i] += prior
@@ -165,13 +177,15 @@ def score_all(
         raw, cross, block = _shared(system, solution, scores, group)
         matrix = raw - cross @ inverse @ cross.T
         found.append(Batch([group], raw[None], matrix[None], (block - cross @ spread)[None], None))
+    own: dict[int, np.ndarray] = {}
     for (j, size), members in local.items():
         part, col, pos = system.parts[j], solution.columns[j], solution.positions[j]
+        if j not in own:
+            own[j] = inverse[pos[:, None], pos]
         at = np.array([part.places[g].start for g in members])[:, None] + np.arange(size)  # (g, k)
-        cross = part.total[at[:, :, None], col]  # (g, k, p)
         raw = part.total[at[:, :, None], at[:, None, :]]
-        flat = cross.reshape(-1, len(col))
-        half = (flat @ inverse[pos[:, None], pos]).reshape(cross.shape)
+        flat = part.total[at.reshape(-1)][:, col]  # (g k, p)
+        cross, half = flat.reshape(*at.shape, -1), (flat @ own[j]).reshape(*at.shape, -1)
         matrix = raw - half @ np.swapaxes(cross, 1, 2)
         block = np.moveaxis(scores[j][:, at], 0, -1) - (flat @ spread[pos]).reshape(*at.shape, -1)
         found.append(Batch(members, raw, matrix, block, None))
@@ -186,20 +200,15 @@ def _board(batches: list[Batch]) -> Board:
         diagonal = np.diagonal(batch.raw, axis1=1, axis2=2)
         scale = np.sqrt(np.where(diagonal > 0, diagonal, 1.0))
         scaled = batch.matrix / scale[:, :, None] / scale[:, None, :]
-        if batch.raw.shape[1] == 1:
-            values, vectors = scaled[:, :, 0], np.ones_like(scaled)
-        else:
-            values, vectors = np.linalg.eigh(scaled)
         least = LEAST_VISIBLE_SHARED if batch.groups[0].joint is None else LEAST_VISIBLE
-        keep = (values > least**2) & np.all(diagonal > 0, axis=1)[:, None]
-        half = np.swapaxes(vectors, 1, 2) / np.sqrt(np.where(keep, values, np.inf))[:, :, None]
-        count = keep.sum(1)
+        done, count = halved(scaled, batch.block / scale[:, :, None], least**2, np.all(diagonal > 0, axis=1))
         seen = np.flatnonzero(count)
-        done = half[seen] @ (batch.block[seen] / scale[seen, :, None])
+        done = done[seen]
         rows.append(done)
         gains.append(np.sum(done.sum(2) ** 2, axis=1))
         sizes.append(count[seen])
-        visible.append(np.sqrt(np.clip(values[seen].mean(1), 0.0, 1.0)))
+        mean = np.trace(scaled[seen], axis1=1, axis2=2) / scaled.shape[1]
+        visible.append(np.sqrt(np.clip(mean, 0.0, 1.0)))
         items.append(seen)
     which = np.repeat(np.arange(len(batches)), [len(i) for i in items])
     none = [np.zeros(0)]
@@ -215,9 +224,12 @@ def _windows(system: System, solution: Solution, spread, group: Group, windows: 
     D = np.concatenate([np.zeros_like(D[:1]), np.cumsum(D, 0)])
     E = np.concatenate([np.zeros_like(E[:1]), np.cumsum(E, 0)])
     a, b = windows[:, 0], windows[:, 1]
-    raw, cross = D[b] - D[a], E[b] - E[a]  # (w, k, k), (w, k, p)
-    flat = cross.reshape(-1, cross.shape[2])
-    matrix = raw - (flat @ solution.covariance).reshape(cross.shape) @ np.swapaxes(cross, 1, 2)
+    # A window is the difference of two running sums: products of those once, whatever the number of windows.
+    flat = E.reshape(-1, E.shape[2])
+    taken = (flat @ solution.covariance @ flat.T).reshape(*E.shape[:2], *E.shape[:2]).swapaxes(1, 2)
+    raw = D[b] - D[a]
+    matrix = raw - (taken[b, b] - taken[b, a] - taken[a, b] + taken[a, a])
+    lost = (flat @ spread).reshape(*E.shape[:2], -1)
     if null:
         index = np.arange(len(U) + 1)
         inside = (index >= a[:, None]) & (index < b[:, None])  # (w, B + 1)
@@ -225,7 +237,7 @@ def _windows(system: System, solution: Solution, spread, group: Group, windows: 
     else:
         running = np.concatenate([np.zeros_like(U[:1]), np.cumsum(U, 0)])
         block = (running[b] - running[a])[:, :, None]
-    block = block - (flat @ spread).reshape(len(a), group.size, -1)
+    block = block - (lost[b] - lost[a])
     return Batch([group], raw, matrix, block, windows)
 
 
@@ -252,14 +264,12 @@ def _per_block(system: System, solution: Solution, group: Group):
             continue
         place = part.places[group]
         own, rest = part.activate(np.arange(place.start, place.stop)), part.activate(col)
-        cross = part.blocks[:, own[:, None], rest]
-        D += part.blocks[:, own[:, None], own]
+        blocks = part.blocks[:, own]
+        cross = blocks[:, :, rest]
+        D += blocks[:, :, own]
         E[:, :, pos] += cross
-        U += part.blocks[:, own, part.activate(_FIRST)[0]] - cross @ solution.theta[pos]
+        U += blocks[:, :, 0] - cross @ solution.theta[pos]
     return D, E, U
-
-
-_FIRST = np.zeros(1, int)  # y's column
 
 
 def minus_log_p(gain: np.ndarray, size: np.ndarray) -> np.ndarray:
