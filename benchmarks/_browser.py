@@ -69,8 +69,7 @@ class Browser:
         except Exception:
             return
 
-    @staticmethod
-    def _text(data: bytes, unpack: zstandard.ZstdDecompressor) -> bytes:
+    def _text(self, data: bytes, unpack: zstandard.ZstdDecompressor) -> bytes:
         size, packed = int.from_bytes(data[:8], "little"), int.from_bytes(data[8:16], "little")
         return unpack.decompress(data[16 : 16 + packed], max_output_size=size)
 

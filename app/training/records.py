@@ -46,6 +46,12 @@ class Records:
         with self._database.begin() as connection:
             connection.execute(insert(SCORES), row)
 
+    def has(self, session: str, begun: float) -> bool:
+        """True where the attempt that began in this session at that time has its score."""
+        kept = select(SCORES.c.id).where(SCORES.c.session == session, SCORES.c.begun == begun)
+        with self._database.begin() as connection:
+            return connection.execute(kept).first() is not None
+
     def history(self, trainee: str, exercise: str | None = None) -> list[ScoreCard]:
         """What a trainee reached, the oldest first; of one exercise, or of all.
 

@@ -7,7 +7,10 @@ import pytest
 
 from app.pendant.server import PendantServer
 from app.session import Store
-from app.session.actions import Record
+from app.session.actions import Finish, Record
+from app.training.cell import begin
+from app.training.exercise import exercise
+from app.training.records import Records
 from benchmarks._browser import Browser
 
 PATIENCE_S = 20.0
@@ -142,6 +145,24 @@ def test_where_the_arm_was_left_is_written_when_the_browser_goes(enter, server):
     browser.close()
     until(lambda: not server.pendants and not server.hub.names, "the server to notice")
     assert np.allclose(server.hub.store.state(pendant.session.name).q, aim)
+
+
+def test_a_score_the_server_did_not_live_to_keep_is_kept_when_the_session_comes_back_and_once(enter, server):
+    browser, _ = enter()
+    until(lambda: browser.token, "the token")
+    browser.close()
+    until(lambda: not server.pendants and not server.hub.names, "the server to notice")
+    chosen = exercise("tool_with_axes")
+    session = server.hub.store.open(browser.token)
+    for action in (begin(chosen, 7, 1000.0, "Ada"), Finish(given_up=True)):
+        session.do(action)
+    records = Records(server.hub.store.database)
+    assert not records.history("Ada")
+    for _ in range(2):
+        again, _ = enter(browser.token)
+        assert [card.exercise for card in records.history("Ada")] == [chosen.key]
+        again.close()
+        until(lambda: not server.pendants and not server.hub.names, "the server to notice")
 
 
 def test_another_arm_is_shown_with_its_own_joints(enter):

@@ -16,12 +16,18 @@ from app.session.actions import Move
 KILLS, EACH, LONGEST_S = 100, 10, 0.04  # a new session after each ten, so that none grows long
 PATIENCE_S = 300.0
 
-#: Imports once; every line on its stdin is a process of its own that opens the session and never stops by itself.
+#: Imports and reads the arm once; every line on its stdin is a process of its own that opens the session and never
+#: stops by itself.
 TEACHER = """
 import os, sys
 from pathlib import Path
 from app.session import Store
 from app.session.actions import Delete, Move, Record
+from app.session.reducer import reduce
+from app.session.state import first_state
+state = first_state("ur10e")
+for action in (Record("touch1"), Delete("touch1")):
+    state = reduce(state, action)
 for line in sys.stdin:
     name = line.strip()
     child = os.fork()
@@ -50,10 +56,11 @@ def test_nothing_confirmed_is_lost_in_a_hundred_random_kills(tmp_path):
         text=True,
         cwd=Path.cwd(),
     )
+    assert teacher.stdin is not None and teacher.stdout is not None
     watch = threading.Timer(PATIENCE_S, teacher.kill)
     watch.start()
     store = Store(tmp_path)
-    total = 0
+    total, name, reached = 0, "", 1
     for kill in range(KILLS):
         if kill % EACH == 0:
             name, reached = store.create(robot="ur10e").name, 1

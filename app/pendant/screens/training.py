@@ -25,6 +25,7 @@ class _View:
         self.pendant = pendant
         gui, t = pendant.client.gui, pendant.t
         self._said_at = 0.0
+        scoring.catch_up(pendant)
         running, session = pendant.session.state.running, pendant.session.name
         if not pendant.trainee:  # after a reload
             last = pendant.shelf.records.trainee_of(session)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from app.pendant.screens._training import cards, plots
-from app.session.actions import Finish
+from app.session.actions import Begin, Finish
 from app.training.attempt import last_attempt
 from app.training.exercise import exercise
 from app.training.score import ScoreCard, score
@@ -20,15 +20,32 @@ def finish(pendant: Pendant, action: Finish) -> ScoreCard | None:
     pendant.do(action)
     if running is None:
         return None
-    trainee = running.begun.trainee or pendant.session.name
-    card = score(exercise(running.begun.exercise), last_attempt(pendant.session.entries))
-    pendant.shelf.records.add(trainee, pendant.session.name, card)
+    trainee, card = _keep(pendant, running.begun)
     if card.given_up:
         pendant.say("info", pendant.t("training.gave_up"))
     else:
         pendant.say("good", pendant.t("training.scored", total=f"{card.total:.0f}"))
         show(pendant, trainee, card)
     return card
+
+
+def catch_up(pendant: Pendant) -> None:
+    """Keeps the score of an exercise that ended just before the server did: between the two it may be killed."""
+    entries = pendant.session.entries
+    if not entries or not isinstance(entries[-1].action, Finish):
+        return
+    begun = last_attempt(entries)[0].action
+    if isinstance(begun, Begin):
+        _keep(pendant, begun)
+
+
+def _keep(pendant: Pendant, begun: Begin) -> tuple[str, ScoreCard]:
+    """The attempt's score, kept once, though the page that is made anew meanwhile catches up with it too."""
+    trainee = begun.trainee or pendant.session.name
+    card = score(exercise(begun.exercise), last_attempt(pendant.session.entries))
+    if not pendant.shelf.records.has(pendant.session.name, begun.at):
+        pendant.shelf.records.add(trainee, pendant.session.name, card)
+    return trainee, card
 
 
 def show(pendant: Pendant, trainee: str, card: ScoreCard) -> None:
