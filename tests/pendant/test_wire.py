@@ -43,7 +43,7 @@ class Tap(Browser):
         super().__init__(port)
 
     def _text(self, data, unpack):
-        text = Browser._text(data, unpack)
+        text = super()._text(data, unpack)
         self.texts.append(text)
         start = 16 + int.from_bytes(data[8:16], "little")
         self.buffers.append(data[start + -start % 8 :])  # buffers begin at multiples of eight
@@ -125,8 +125,9 @@ def work(pendant, chosen):
     done(pendant, lambda: pendant.do(begin(chosen, SEED, time.time())))
     robot = pendant.model
     upright = pendant.world.hand(robot.home).rotation
+    origin = robot.home
     for number, step in enumerate(pendant.session.state.steps):
-        world = pendant.world
+        world, touched = pendant.world, None
         if "touch" in step.roles:
             for tilt in FAR[number:] + FAR:
                 aim = Pose.of(upright @ exp_so3(from_deg(np.array(tilt, float))), world.p_base_spike_drawn)
@@ -135,9 +136,9 @@ def work(pendant, chosen):
                 if touched.reached:
                     break
         else:
-            touched = world.stroke(origin, "xyz".index(step.role), 0.12, pendant.rng)  # noqa: F821
-        assert touched.reached
-        origin = touched.q  # noqa: F841
+            touched = world.stroke(origin, "xyz".index(step.role), 0.12, pendant.rng)
+        assert touched is not None and touched.reached
+        origin = touched.q
         done(pendant, lambda q=touched.q: pendant.go(q))
         done(pendant, lambda key=step.key: pendant.do(Record(key, as_tuple(pendant.q))))
     for name in ("close", "side", "front", "whole"):
@@ -186,7 +187,9 @@ def test_the_search_finds_what_is_sent_and_the_truth_after_the_end(served):
     world = pendant.world
     hand = world.hand(pendant.q)
     assert "<f" not in tap.holds(hand.position[0]) and tap.holds(hand.position[0])  # the handle
-    drawn = truth_of(chosen.key, SEED).world.picture.T_flange_tool.position
+    picture = truth_of(chosen.key, SEED).world.picture
+    assert picture is not None
+    drawn = picture.T_flange_tool.position
     tool = np.concatenate([v for name, v in tap.meshes().items() if "/flange/tool" in name])
     assert np.linalg.norm(tool - drawn, axis=1).min() < 2.0 * BESIDE
 
@@ -240,6 +243,7 @@ def test_the_second_robots_place_is_received_nowhere_before_the_end(served):
     done(pendant, view._meet)
     assert run.meeting is not None and run.relation.warnings[0].code == "tracker_moved"
     time.sleep(0.5)
+    assert truth.pushed is not None
     secret = {"relation": truth.cell.T_base1_base2.position, "push": truth.pushed.position}
     secret |= {f"robot{k}": arm.T_world_base.position for k, arm in enumerate(truth.cell.arms, 1)}
     secret |= {f"turn{k}": arm.T_world_base.quaternion for k, arm in enumerate(truth.cell.arms, 1)}
