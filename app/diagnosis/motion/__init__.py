@@ -10,6 +10,7 @@ system.py, joint_system.py  Gram matrices block by block
 scoring.py, directions.py  scores and their null under sign flips
 search.py, locate.py, bending.py, heldout.py  forward selection
 refining.py           laws and times looked at again together
+friction.py           a joint's friction chosen as a set
 repeats.py            a trajectory that runs again: noise without physics
 corrections.py        what is undone in the samples and looked at again
 uncertainty.py        spreads where structure is left

@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from app.diagnosis.motion.bending import bent
+from app.diagnosis.motion.friction import BETTER, RARE, choose_friction
 from app.diagnosis.motion.locate import located
 from app.diagnosis.motion.scoring import Candidate, score_all, solve
-from app.diagnosis.motion.search import LEVEL, Term, key_of
+from app.diagnosis.motion.search import LEVEL, Term, is_common, key_of
 from app.diagnosis.motion.system import Group, System
 
 if TYPE_CHECKING:
@@ -21,9 +22,6 @@ TRIED = 4  # laws bent in one place
 NEAR = 0.8  # of what is there must a law explain before its shape is bent: shapes lie close on the grid
 SHADOW = 0.05  # of what a law adds to a simpler one within it, beyond which a free curve shows it is another
 SHAPELY = 0.03  # share of its gain by which a law with a shape must beat one without
-BETTER = 2.0  # an exchange must be worth this much
-#: Dry and viscous friction are in every joint: another law in their place must be a hundred times likelier.
-RARE = 9.2
 OVERLAP = 0.7  # of both windows together, beyond which two events are one
 SAME_TIME = 0.5  # s between two changes that are one
 
@@ -33,7 +31,8 @@ def refine(search: Search, terms: list[Term], stay: int = 0) -> list[Term]:
     terms = merge(terms, stay)
     for _ in range(PASSES):
         before = [t.group for t in terms]
-        terms = simplify(search, exchange(search, relocate(search, terms, stay), stay), stay)
+        terms = exchange(search, relocate(search, terms, stay), stay)
+        terms = simplify(search, choose_friction(search, terms, stay), stay)
         if [t.group for t in terms] == before:
             break
     return terms
@@ -67,7 +66,7 @@ def exchange(search: Search, terms: list[Term], stay: int = 0) -> list[Term]:
                 continue
             worth = search.losses_without([*others[:i], group, *others[i:]])[i] - penalty * _freedom(group)
             least = BETTER + SHAPELY * gain * (_shaped(group) - _shaped(term.group))
-            if worth > own + least + RARE * (_common(term.group) - _common(group)):
+            if worth > own + least + RARE * (is_common(term.group) - is_common(group)):
                 term = Term(group, term.p_value, board[index].visible)
                 terms = [*terms[:i], term, *terms[i + 1 :]]
                 own = worth
@@ -191,7 +190,3 @@ def _freedom(group: Group) -> int:
 
 def _shaped(group: Group) -> bool:
     return group.law is not None and any(name in group.law.shape_bounds for name in group.shape)
-
-
-def _common(group: Group) -> bool:
-    return group.law is not None and group.law.common

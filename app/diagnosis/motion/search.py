@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from types import MappingProxyType
@@ -194,10 +194,11 @@ class Search:
         """Drops terms whose place others have taken; the first `keep` stay."""
         while len(terms) > max(keep, 1):
             sizes = np.array([t.group.size for t in terms[keep:]])
+            beyond = np.array([dear(t.group, [o.group for o in terms]) for t in terms[keep:]])
             gains = self.losses_without([t.group for t in terms])[keep:]
-            spare = gains - np.log(max(self.system.rows, 3)) * sizes
+            spare = gains - np.log(max(self.system.rows, 3)) * sizes - beyond
             weakest = int(np.argmin(spare))
-            if spare[weakest] > DROP:
+            if spare[weakest] > 0.0:
                 return terms
             terms = [t for i, t in enumerate(terms) if i != weakest + keep]
         return terms
@@ -230,6 +231,28 @@ class _Bar:
     @cached_property
     def value(self) -> float:
         return max(float(null_scores(self._board, self._signs).max()), self._sure)
+
+
+def resists(group: Group) -> bool:
+    """True for the laws of a joint's own speed that hold it back."""
+    law = group.law
+    return law is not None and law.driver == "speed" and bool(law.positive) and not law.shared
+
+
+def is_common(group: Group) -> bool:
+    """True for what nearly every joint has."""
+    return group.law is not None and group.law.common
+
+
+def dear(group: Group, beside: Sequence[Group]) -> float:
+    """What a term must be worth beyond the Bayesian criterion.
+
+    Dry or viscous friction beside another friction law of its joint is worth nothing more: it is there, and
+    left out it would be made up for by the other's values.
+    """
+    if is_common(group) and any(resists(g) and not is_common(g) and g.joint == group.joint for g in beside):
+        return 0.0
+    return DROP
 
 
 def key_of(group: Group) -> tuple:
