@@ -3,6 +3,9 @@
 A polynomial of degree 4 is fitted to a window centred on each sample (Savitzky, Golay 1964), so nothing is
 delayed. The window is chosen by unbiased risk (Stein 1981): the noise is known from sixth differences, what
 a wider window saves in noise and costs in bias is then estimated from the data alone.
+
+Samples that jitter about an even clock are moved onto it along the smoothed signal. Interpolated, their noise
+would be averaged away in some places and not in others, and the window chosen by a noise that is not there.
 """
 
 from __future__ import annotations
@@ -22,6 +25,11 @@ DEGREE = 4
 HALF_WIDTHS = (2, 3, 4, 6, 8, 11, 15, 20, 27, 36, 48)
 _SIXTH = np.array([1.0, -6.0, 15.0, -20.0, 15.0, -6.0, 1.0])
 _PROBE = 20_000  # samples the choice of the window looks at
+_QUIET = 0.98  # share of the sixth differences that are noise; reversals and start-ups are not
+_QUIET_VARIANCE = 0.8735  # of a unit normal cut off at that share: 1 - 2 c phi(c) / 0.98 with c = 2.326
+_BEFORE = 2  # so many windows narrower, a window's bias is nearly all gone
+_JITTER = 0.5  # of a step: samples nearer than this to the ticks of an even clock belong to them
+_ALONG = 6  # half width of the window along which they are moved
 
 
 @dataclass(frozen=True)
@@ -55,9 +63,8 @@ def noise_of(signal: np.ndarray) -> float:
     if len(signal) < 16:
         return 0.0
     d = np.convolve(signal, _SIXTH, mode="valid") / np.linalg.norm(_SIXTH)
-    cut = np.quantile(np.abs(d), 0.98)  # reversals and start-ups are no noise
-    kept = d[np.abs(d) <= cut]
-    return float(np.sqrt(np.mean(kept**2))) if len(kept) else 0.0
+    kept = d[np.abs(d) <= np.quantile(np.abs(d), _QUIET)]
+    return float(np.sqrt(np.mean(kept**2) / _QUIET_VARIANCE)) if len(kept) else 0.0
 
 
 def choose_half_width(signal: np.ndarray, step: float, derivative: int) -> tuple[int, float]:
@@ -67,19 +74,20 @@ def choose_half_width(signal: np.ndarray, step: float, derivative: int) -> tuple
     widths = [h for h in HALF_WIDTHS if 2 * h + 1 <= len(probe) // 2]
     if not widths:
         return 2, 0.0
-    first, first_c = np.zeros(0), np.zeros(1)
-    risks = []
     edge = HALF_WIDTHS[-1] if len(probe) > 4 * HALF_WIDTHS[-1] else widths[-1]
     inner = slice(edge, -edge)
-    for h in widths:
+    made: list[tuple[np.ndarray, np.ndarray]] = []
+    risks = []
+    for k, h in enumerate(widths):
         c = _weights(h, derivative)[h] / step**derivative
-        d = correlate1d(probe, c)
-        if not len(first):
-            first, first_c = d, c
-        pad = np.zeros_like(c)
-        middle = len(c) // 2 - len(first_c) // 2
-        pad[middle : middle + len(first_c)] = first_c
-        bias = np.mean((d - first)[inner] ** 2) - sigma**2 * np.sum((c - pad) ** 2)
+        made.append((correlate1d(probe, c)[inner], c))
+        bias = 0.0
+        if k:
+            before, narrow = made[max(k - _BEFORE, 0)]
+            pad = np.zeros_like(c)
+            middle = len(c) // 2 - len(narrow) // 2
+            pad[middle : middle + len(narrow)] = narrow
+            bias = np.mean((made[k][0] - before) ** 2) - sigma**2 * np.sum((c - pad) ** 2)
         risks.append(max(bias, 0.0) + sigma**2 * np.sum(c**2))
     best = int(np.argmin(risks))
     return widths[best], float(risks[best])
@@ -118,30 +126,30 @@ def differentiate(
         q, qd, qdd: (m, n) each, and what was used.
     """
     longest = max(segments, key=lambda s: s.stop - s.start)
-    even_q = _even(t[longest], q[longest], step)
+    even_q, own = _even(t[longest], q[longest], step)
     n = q.shape[1]
-    widths, risks = zip(*(choose_half_width(even_q[:, j], step, 2) for j in range(n)), strict=True)
+    widths, risks = zip(*(choose_half_width(even_q[:, j], own, 2) for j in range(n)), strict=True)
     noise = [noise_of(even_q[:, j]) for j in range(n)]
     source, widths_qd, noise_qd = "position", widths, noise
     if qd is not None:
-        even_qd = _even(t[longest], qd[longest], step)
-        widths_qd, risks = zip(*(choose_half_width(even_qd[:, j], step, 1) for j in range(n)), strict=True)
+        even_qd, own = _even(t[longest], qd[longest], step)
+        widths_qd, risks = zip(*(choose_half_width(even_qd[:, j], own, 1) for j in range(n)), strict=True)
         noise_qd = [noise_of(even_qd[:, j]) for j in range(n)]
         source = "recorded speed"
     out_q, out_qd, out_qdd = np.empty_like(q), np.empty_like(q), np.empty_like(q)
     for part in segments:
         tt = t[part]
-        grid_q = _even(tt, q[part], step)
-        grid_qd = None if qd is None else _even(tt, qd[part], step)
+        grid_q, own = _even(tt, q[part], step)
+        grid_qd = None if qd is None else _even(tt, qd[part], step)[0]
+        back = _back(tt, step)
         for j in range(n):
-            smooth_q = _filter(grid_q[:, j], widths[j], 0, step)
+            smooth_q = _filter(grid_q[:, j], widths[j], 0, own)
             if grid_qd is None:
-                speed = _filter(grid_q[:, j], widths[j], 1, step)
-                acceleration = _filter(grid_q[:, j], widths[j], 2, step)
+                speed = _filter(grid_q[:, j], widths[j], 1, own)
+                acceleration = _filter(grid_q[:, j], widths[j], 2, own)
             else:
-                speed = _filter(grid_qd[:, j], widths_qd[j], 0, step)
-                acceleration = _filter(grid_qd[:, j], widths_qd[j], 1, step)
-            back = _back(tt, step, len(smooth_q))
+                speed = _filter(grid_qd[:, j], widths_qd[j], 0, own)
+                acceleration = _filter(grid_qd[:, j], widths_qd[j], 1, own)
             out_q[part, j], out_qd[part, j], out_qdd[part, j] = (
                 back(smooth_q),
                 back(speed),
@@ -160,19 +168,40 @@ def _is_even(t: np.ndarray, step: float) -> bool:
     )
 
 
-def _even(t: np.ndarray, values: np.ndarray, step: float) -> np.ndarray:
-    """Values on an even grid; untouched where they are even already."""
+def _grid(t: np.ndarray, step: float) -> tuple[np.ndarray, float, bool]:
+    """The even clock of some samples, its step, and whether every tick is one sample's."""
     if len(t) < 4 or _is_even(t, step):
-        return values
-    grid = t[0] + step * np.arange(int((t[-1] - t[0]) / step) + 1)
-    return np.asarray(_spline(t, values)(grid))
+        return t, step, True
+    own = float(t[-1] - t[0]) / (len(t) - 1)
+    ticks = own * np.arange(len(t))
+    ticks += np.mean(t - ticks)
+    if np.max(np.abs(t - ticks)) < _JITTER * own:
+        return ticks, own, True
+    return t[0] + step * np.arange(int((t[-1] - t[0]) / step) + 1), step, False
 
 
-def _back(t: np.ndarray, step: float, count: int):
-    """From the even grid to the sample times."""
-    if len(t) < 4 or (count == len(t) and _is_even(t, step)):
+def _even(t: np.ndarray, values: np.ndarray, step: float) -> tuple[np.ndarray, float]:
+    """Values (m, n) on an even clock, and its step; untouched where they are even already."""
+    grid, own, each = _grid(t, step)
+    if grid is t:
+        return values, own
+    if not each or len(t) < 4 * _ALONG:
+        return np.asarray(_spline(t, values)(grid)), own
+    late = (t - grid)[:, None]
+    out = values
+    for _ in range(3):  # the slope is taken from what was moved already
+        slope, bend = (
+            np.stack([_filter(column, _ALONG, d, own) for column in out.T], axis=1) for d in (1, 2)
+        )
+        out = values - late * slope - 0.5 * late**2 * bend
+    return out, own
+
+
+def _back(t: np.ndarray, step: float):
+    """From the even clock to the sample times."""
+    grid, _, _ = _grid(t, step)
+    if grid is t:
         return lambda values: values
-    grid = t[0] + step * np.arange(count)
     return lambda values: _spline(grid, values)(np.clip(t, grid[0], grid[-1]))
 
 
