@@ -75,3 +75,9 @@ def test_a_joint_that_its_friction_pushes_along_is_given_no_name(tmp_path):
     found = diagnose(write(run, tmp_path / "log.csv", digits=7), robot)
     assert not found.findings and found.verdict == "unexplained"
     assert found.leftover.where["joint"] == 3
+
+
+def test_gravity_may_point_elsewhere_but_is_not_half_as_strong_again():
+    law = laws()["gravity_direction"]
+    assert law.lawful({"gx": 0.5, "gy": 0.0, "gz": -9.8}) and law.lawful({"gx": 9.81, "gy": 0.0, "gz": 0.0})
+    assert not law.lawful({"gx": 0.0, "gy": 0.0, "gz": -13.96})

@@ -10,6 +10,8 @@ from app.diagnosis.effects.motion._law import Law, Place, Values, Where
 from app.diagnosis.effects.motion._state import State
 from app.kinematics.robot import GRAVITY
 
+SIZE = 0.05  # relative: gravity itself differs by half a percent from pole to equator, the rest is what a log tells
+
 
 class GravityDirection(Law):
     key = "gravity_direction"
@@ -35,6 +37,11 @@ class GravityDirection(Law):
     ) -> np.ndarray:
         change = np.array([values[k] for k in self.linear]) - GRAVITY
         return state.gravity_columns @ change
+
+    def lawful(self, values: Values) -> bool:
+        """The arm leans; gravity's size is what it is everywhere."""
+        size = np.linalg.norm([values[k] for k in self.linear]) / np.linalg.norm(GRAVITY)
+        return bool(abs(size - 1.0) < SIZE)
 
     def explain(self, where: Where, values: Values) -> str:
         g = np.array([values[k] for k in self.linear])
