@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from scipy.optimize import minimize_scalar
 
 from app.diagnosis.motion.scoring import solve
 from app.diagnosis.motion.system import Group, System
+from app.estimation import lowest
 
 WIDTH = 0.8  # of the logarithm, either way
 
@@ -40,7 +40,7 @@ def bent(system: System, prior: np.ndarray, others: list[Group], group: Group) -
         s = c.T @ left
         return -float(s @ np.linalg.solve(M, s))
 
-    best = minimize_scalar(loss, bounds=bounds, method="bounded", options={"maxiter": 20, "xatol": 1e-3})
-    shape = {**group.shape, name: float(np.exp(best.x))}
+    best = lowest(loss, *bounds, within=1e-3, most=20)
+    shape = {**group.shape, name: float(np.exp(best))}
     new = replace(group, shape=shape)
     return system.append(new, samples.pool(law.columns(samples.state, group.where, shape)))
