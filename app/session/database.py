@@ -1,7 +1,7 @@
 """Where sessions and training records are kept: SQLite in the data folder, or any other database by its URL.
 
 A row an action. SQLite writes ahead and waits for the disk at each commit (WAL, synchronous FULL), so a process killed
-at any moment leaves whole actions only, and all those that were confirmed.
+at any moment leaves whole actions only, and all those that were confirmed. PostgreSQL does the same by itself.
 """
 
 from __future__ import annotations
@@ -19,7 +19,8 @@ from app.errors import InputError, StorageError, one_line
 FILE = "teachframe.sqlite"
 #: Drivers for URLs that name only the kind of database.
 _DRIVERS = {"postgresql": "postgresql+psycopg", "postgres": "postgresql+psycopg"}
-_BUSY = 30.0  # seconds another program may hold the file before an action fails
+_BUSY = 30.0  # seconds another program may hold the file or the table before an action fails
+_ANSWER = 10  # whole seconds a database server has to answer when it is first spoken to
 
 METADATA = MetaData()
 SESSIONS = Table(
@@ -53,11 +54,16 @@ class Database:
         address = _address(url)
         self.name = address.render_as_string(hide_password=True)
         lite = address.get_backend_name() == "sqlite"
+        post = address.get_backend_name() == "postgresql"
+        if post and "connect_timeout" not in address.query:
+            address = address.update_query_dict({"connect_timeout": str(_ANSWER)})
         options = {"connect_args": {"timeout": _BUSY}} if lite else {"pool_pre_ping": True}
         try:
             self._engine = create_engine(address, **options)
             if lite:
                 event.listen(self._engine, "connect", _durable)
+            elif post:
+                event.listen(self._engine, "connect", _patient)
             self.make_tables()
         except ModuleNotFoundError as error:
             raise InputError(
@@ -126,6 +132,12 @@ def _durable(connection, _record) -> None:
     for pragma in ("journal_mode=WAL", "synchronous=FULL"):
         cursor.execute(f"PRAGMA {pragma}")
     cursor.close()
+
+
+def _patient(connection, _record) -> None:
+    connection.autocommit = True  # else it would be undone with the first transaction
+    connection.execute(f"SET lock_timeout = '{_BUSY:g}s'")
+    connection.autocommit = False
 
 
 def _said(error: SQLAlchemyError) -> str:

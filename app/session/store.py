@@ -10,9 +10,9 @@ from pathlib import Path
 
 import msgspec
 import platformdirs
-from sqlalchemy import func, insert, select
+from sqlalchemy import delete, func, insert, select
 
-from app.errors import FileFormatError, InputError, TeachframeError, UnknownNameError
+from app.errors import FileFormatError, InputError, StorageError, TeachframeError, UnknownNameError
 from app.session.actions import AnyAction
 from app.session.database import ACTIONS, FILE, SESSIONS, Database, sqlite_url
 from app.session.journal import Entry, Header, Recorded, decoded, encode_journal, read_journal
@@ -183,16 +183,29 @@ class _Journal:
     def __init__(self, database: Database, recorded: Recorded):
         self._database, self.recorded = database, recorded
         self._count = len(recorded.entries)
+        self._doubtful: dict[str, object] | None = None
         self._closed = False
 
     def append(self, action: AnyAction) -> Entry:
-        """A row, on the disk when this returns. A number is given once: two writers cannot both have it."""
+        """A row, on the disk when this returns. A number is given once: two writers cannot both have it.
+
+        A row the database did not confirm may be there all the same, where its answer was lost on the way. Nobody has
+        seen it count, so it makes room for the next one.
+        """
         if self._closed:
             raise ValueError("this session is closed")
         entry = Entry(self._count + 1, round(time.time(), 3), action)
-        with self._database.begin() as connection:
-            connection.execute(insert(ACTIONS), _row(self.recorded.header.session, entry))
-        self._count += 1
+        row, doubtful = _row(self.recorded.header.session, entry), self._doubtful
+        try:
+            with self._database.begin() as connection:
+                if doubtful is not None:
+                    same = [column == doubtful[column.name] for column in ACTIONS.columns]
+                    connection.execute(delete(ACTIONS).where(*same))
+                connection.execute(insert(ACTIONS), row)
+        except StorageError:
+            self._doubtful = row
+            raise
+        self._count, self._doubtful = self._count + 1, None
         return entry
 
     def close(self) -> None:

@@ -1,6 +1,7 @@
 """The store: an action is on the disk before it counts, and is found again by whoever asks."""
 
 import sqlite3
+from contextlib import contextmanager
 
 import numpy as np
 import pytest
@@ -55,6 +56,27 @@ def test_an_action_that_cannot_be_kept_does_not_count(store, taught):
     with pytest.raises(StorageError, match="did not keep this"):
         taught.do(Delete("touch1"))
     assert taught.state is state
+
+
+def test_an_action_whose_confirmation_was_lost_makes_room_for_the_next_one(store, taught, monkeypatch):
+    begin, before = store.database.begin, taught.state
+
+    @contextmanager
+    def silent():
+        with begin() as connection:
+            yield connection
+        raise StorageError("the connection broke")
+
+    with monkeypatch.context() as broken:
+        broken.setattr(store.database, "begin", silent)
+        with pytest.raises(StorageError):
+            taught.do(Delete("touch1"))
+        with pytest.raises(StorageError):  # and once more, over the first
+            taught.do(Delete("touch2"))
+    assert taught.state is before
+    taught.do(Delete("touch3"))
+    back = store.open(taught.name)
+    assert back.entries == taught.entries and set(back.state.captures) == set(taught.state.captures)
 
 
 def test_two_writers_of_one_session_cannot_both_have_a_number(store, taught):
