@@ -85,6 +85,20 @@ class Phrase:
         return self.text()
 
 
+class Said(str):
+    """A phrase in its English words, for lists that go into JSON as they are and onto pages in any language."""
+
+    phrase: Phrase
+
+    def __new__(cls, phrase: Phrase) -> Said:
+        self = super().__new__(cls, phrase.text())
+        self.phrase = phrase
+        return self
+
+    def __getnewargs__(self) -> tuple[Phrase]:  # type: ignore[override]
+        return (self.phrase,)
+
+
 def padded(text: str, width: int) -> str:
     """Spaces to the left up to a width in columns, or to the right where it is negative: Chinese takes two each."""
     gap = " " * (abs(width) - sum(2 if unicodedata.east_asian_width(c) in "WF" else 1 for c in text))

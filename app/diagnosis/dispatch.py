@@ -13,6 +13,7 @@ import numpy as np
 
 from app.diagnosis.model import SavedModel
 from app.diagnosis.result import Diagnosis, Progress
+from app.diagnosis.wording import kind_name, note
 from app.errors import (
     CellValueError,
     FileFormatError,
@@ -164,7 +165,7 @@ def kind_of(table: Table) -> tuple[str, tuple[str, ...]]:
                 column="kind",
                 expected=f"a line '# kind: {' | '.join(ENGINES)}'",
             )
-        return kind, (f"The header has no '# kind:'; by its columns it was read as {kind}.",)
+        return kind, (note("kind_guessed", kind=kind_name(kind)),)
     if kind in ELSEWHERE:
         raise InputError(
             f"a file of kind {kind} is read by `{ELSEWHERE[kind]}`",

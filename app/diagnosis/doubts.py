@@ -14,6 +14,7 @@ from app.diagnosis.static.noise import position_rms
 from app.diagnosis.static.plain import plain_fit
 from app.diagnosis.static.reading import read_static
 from app.diagnosis.static.recording import StaticRecording
+from app.diagnosis.wording import note
 from app.errors import InputError, TeachframeError
 from app.kinematics import RobotModel, load_robot, robot_names
 from app.recordings import Table
@@ -93,10 +94,7 @@ def doubted(found: Diagnosis, robot: RobotModel) -> Diagnosis:
         return found
     why = _another_arm(found, robot) or _predicts_nothing(found)
     if not why and found.samples < FEWEST_NAMED:
-        why = (
-            f"only {found.samples} rows: with fewer than {FEWEST_NAMED} a law is easily taken for its neighbour, "
-            "so nothing is named"
-        )
+        why = note("few_rows", count=found.samples, fewest=FEWEST_NAMED)
     if not why:
         return found
     where = {k: v for k, v in found.findings[0].where.items() if k in ("joint", "link", "body", "driver")}
@@ -123,14 +121,12 @@ def _another_arm(found: Diagnosis, robot: RobotModel) -> str:
     if not far:
         return ""
     finding, parameter = far[0]
-    size = (
-        f"{mm(abs(_si(parameter))):.3g} mm"
-        if finding.effect == "link_length"
-        else f"{deg(abs(_si(parameter))):.3g} degrees"
-    )
-    return (
-        f"link {finding.where.get('link')} would have to be {size} off: this is a recording of another arm than "
-        f"{robot.name}, and nothing is named"
+    long, off = finding.effect == "link_length", abs(_si(parameter))
+    return note(
+        "another_arm_length" if long else "another_arm_twist",
+        link=finding.where.get("link"),
+        off=mm(off) if long else deg(off),
+        robot=robot.name,
     )
 
 
@@ -154,7 +150,7 @@ def _better(table: Table, robot: RobotModel, own: float) -> tuple[str, float]:
 def _predicts_nothing(found: Diagnosis) -> str:
     fit, heldout = found.after.fit_rms, found.after.heldout_rms
     if heldout > _FAR and heldout > _TIMES * fit:
-        return f"what was found fits to {fit:.3g} mm and misses rows left out by {heldout:.3g} mm: nothing is named"
+        return note("predicts_nothing", fit=fit, heldout=heldout)
     return ""
 
 

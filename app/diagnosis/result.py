@@ -226,6 +226,8 @@ def _plain(value: Any) -> Any:
     """JSON types only."""
     if hasattr(value, "__dataclass_fields__"):
         return {name: _plain(getattr(value, name)) for name in value.__dataclass_fields__}
+    if isinstance(value, str):
+        return str(value)  # a remark that remembers its phrase is its sentence here
     if isinstance(value, Mapping):
         return {str(k): _plain(v) for k, v in value.items()}
     if isinstance(value, list | tuple):

@@ -10,8 +10,11 @@ import numpy as np
 import polars as pl
 
 from app.errors import InputError, MissingColumnError
+from app.phrases import Phrase, Said, Texts
 from app.recordings.table import Table
 
+#: What is said of it, one file a language.
+WORDS = Texts(Path(__file__).parent / "words")
 #: Header keys that say how a recording was made; one that differs is dropped, and that is said.
 _MAY_DIFFER = ("noise_mm", "resolution_deg")
 #: Header keys that say what was moved; they must agree.
@@ -19,7 +22,7 @@ _MUST_AGREE = ("kind", "payload_com_m", "compliance_rad_per_Nm")
 _GAP_S = 1.0  # between the last row of a file and the first of the next, where their clocks both start anew
 
 
-def joined(tables: Sequence[Table]) -> tuple[Table, tuple[str, ...]]:
+def joined(tables: Sequence[Table]) -> tuple[Table, tuple[Said, ...]]:
     """One table of all rows, in the order given.
 
     Each file is a session of its own: its instrument frame and its tool are fitted apart. Targets whose place is
@@ -58,17 +61,22 @@ def joined(tables: Sequence[Table]) -> tuple[Table, tuple[str, ...]]:
             )
         bodies.append(body)
     counts = np.cumsum([0, *(len(t) for t in tables)])
-    spans = ", ".join(
-        f"{Path(t.path).name} {a + 1} to {b}" for t, a, b in zip(tables, counts, counts[1:], strict=False)
+    spans = tuple(
+        _phrase("span", file=Path(t.path).name, first=int(a) + 1, last=int(b))
+        for t, a, b in zip(tables, counts, counts[1:], strict=False)
     )
-    notes.insert(0, f"Rows are data rows counted through: {spans}.")
+    notes.insert(0, Said(_phrase("rows", spans=spans)))
     whole = pl.concat(bodies)
     rows = np.arange(1, len(whole) + 1)
     path = Path(first.path).with_name(label)
     return Table(path, keys, tuple(whole.columns), lambda: (whole, rows)), tuple(notes)
 
 
-def _common_columns(tables: Sequence[Table]) -> tuple[list[str], list[str]]:
+def _phrase(key: str, /, **fields: Any) -> Phrase:
+    return Phrase(WORDS, f"joined.{key}", fields)
+
+
+def _common_columns(tables: Sequence[Table]) -> tuple[list[str], list[Said]]:
     """Quantities every file has, in the first one's words, and a note on those that some lack.
 
     Raises:
@@ -96,11 +104,11 @@ def _common_columns(tables: Sequence[Table]) -> tuple[list[str], list[str]]:
             )  # fmt: skip
         if column.known:
             names.append(quantity)
-    return names, [f"Not in every file, so not used: {', '.join(dropped)}."] if dropped else []
+    return names, [Said(_phrase("columns", columns=tuple(dropped)))] if dropped else []
 
 
-def _common_keys(tables: Sequence[Table]) -> tuple[dict[str, Any], list[str]]:
-    first, notes = tables[0], []
+def _common_keys(tables: Sequence[Table]) -> tuple[dict[str, Any], list[Said]]:
+    first, notes = tables[0], list[Said]()
     keys = dict(first.keys)
     for key in _MUST_AGREE:
         other = next((t for t in tables if t.keys.get(key) != first.keys.get(key)), None)
@@ -112,5 +120,5 @@ def _common_keys(tables: Sequence[Table]) -> tuple[dict[str, Any], list[str]]:
     for key in _MAY_DIFFER:
         if any(t.keys.get(key) != first.keys.get(key) for t in tables):
             keys.pop(key, None)
-            notes.append(f"The files say different things of {key}: none is used.")
+            notes.append(Said(_phrase("key", key=key)))
     return keys, notes

@@ -15,6 +15,7 @@ from app.diagnosis.motion.errors import raw_columns
 from app.diagnosis.motion.sampling import Samples
 from app.diagnosis.motion.search import Term
 from app.diagnosis.motion.system import System
+from app.diagnosis.wording import note
 
 if TYPE_CHECKING:
     from app.diagnosis.motion.corrections import Corrections
@@ -104,16 +105,14 @@ def without_baseline(samples: Samples, base: Baseline) -> tuple[Samples, str]:
             y[:, group.joint] -= part
     lag = _lag(samples, base)
     if lag is None:
-        return replace(samples, y=y), "the reference follows another path: only its model was taken over"
+        return replace(samples, y=y), note("other_path")
     when = samples.t - lag
     inside = (when >= base.t[0]) & (when <= base.t[-1])
     usable = samples.usable & inside[:, None]
     for j in range(y.shape[1]):
         y[:, j] -= np.interp(when, base.t, base.residual[:, j])
         usable[:, j] &= np.interp(when, base.t, base.usable[:, j].astype(float)) > 0.999
-    return replace(samples, y=y, usable=usable), (
-        f"the reference follows the same path {lag:.2f} s apart: what it left unexplained was taken away too"
-    )
+    return replace(samples, y=y, usable=usable), note("same_path", lag=lag)
 
 
 def known_terms(system: System, base: Baseline) -> list[Term]:

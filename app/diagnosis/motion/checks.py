@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.ndimage import median_filter
 
+from app.diagnosis.wording import note
 from app.errors import CellValueError, InputError, UnitError
 from app.kinematics import RobotModel
 from app.recordings import Table
@@ -100,10 +101,7 @@ def check_units(
     outside = ~robot.within_limits(q, -0.02)
     if outside.any():
         where = int(np.flatnonzero(outside)[0])
-        notes.append(
-            f"{int(outside.sum())} samples lie outside the description's joint limits, "
-            f"the first in row {int(rows[where])}: is this the right robot?"
-        )
+        notes.append(note("samples_outside", count=int(outside.sum()), row=int(rows[where])))
     if qd is None:
         return None
     slope = np.diff(q, axis=0) / np.diff(t)[:, None]
@@ -113,7 +111,7 @@ def check_units(
         a, b = slope[even, j], middle[even, j]
         if np.std(a) < 1e-4 or np.std(b) < 1e-6:
             if np.std(a) > 0.02:
-                notes.append(f"the recorded speed of joint {j + 1} stands still while it moves; not used")
+                notes.append(note("speed_still", joint=j + 1))
                 return None
             if np.ptp(q[:, j]) == 0.0 and np.std(b) > 0.02:
                 raise CellValueError(
@@ -138,10 +136,7 @@ def check_units(
         if alike < 0.5 or not 0.7 < ratio < 1.5:
             if np.sqrt(np.mean(a**2)) < 0.01:
                 continue  # hardly moves: rounding decides
-            notes.append(
-                f"the recorded speed of joint {j + 1} is not the slope of its position "
-                f"(ratio {ratio:.3g}, correlation {alike:.2f}); speed is taken from position"
-            )
+            notes.append(note("speed_no_slope", joint=j + 1, ratio=ratio, alike=alike))
             return None
     return qd
 
@@ -168,5 +163,6 @@ def check_moves(q: np.ndarray, y: np.ndarray, table: Table, notes: list[str]) ->
             expected="measured torques or currents",
         )
     still, dead = np.flatnonzero(~moving) + 1, np.flatnonzero(~changing) + 1
-    notes += [f"joint {j} does not move: nothing can be said of its friction" for j in still]
-    notes += [f"the torque of joint {j} is constant throughout: it is taken as not measured" for j in dead]
+    for found, one, many in ((still, "joint_still", "joints_still"), (dead, "torque_dead", "torques_dead")):
+        if len(found):
+            notes.append(note(one if len(found) == 1 else many, joints=tuple(found.tolist())))

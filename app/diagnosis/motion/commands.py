@@ -12,6 +12,7 @@ import numpy as np
 
 from app.diagnosis.motion.log import Log
 from app.diagnosis.result import Finding, Parameter
+from app.diagnosis.wording import note
 
 STRETCHES = 40
 LATEST = 1.0  # s
@@ -64,7 +65,7 @@ def lag_findings(log: Log, sliding: np.ndarray) -> tuple[Finding, ...]:
                 f"much later, misses the measured one by {lag.with_it:.2g} instead of {lag.without:.2g} "
                 f"{'m' if sliding[lag.joint] else 'rad'}."
             ),
-            equation="q(t) = q_commanded(t - delay)",
+            equation=note("law_command_delay"),
             heldout_unit="m" if sliding[lag.joint] else "rad",
         )
         for lag in lags(log)

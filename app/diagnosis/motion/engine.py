@@ -17,6 +17,7 @@ from app.diagnosis.motion.sampling import Motion, motion_of
 from app.diagnosis.motion.study import Given, examine
 from app.diagnosis.motion.suspects import HOPELESS, check_columns
 from app.diagnosis.result import Diagnosis, Progress
+from app.diagnosis.wording import note
 from app.errors import CellValueError
 from app.kinematics import RobotModel
 from app.recordings import Table
@@ -67,12 +68,10 @@ def ready(table: Table, robot: RobotModel) -> tuple[Log, Motion, frozenset[str]]
     without: frozenset[str] = frozenset()
     if log.current:
         gains, sigmas = estimated_gains(log, robot, motion[:3], table)
-        said = ", ".join(f"{g:.3g} ± {s:.2g}" for g, s in zip(gains, sigmas, strict=True))
-        note = (
-            f"drive gains ESTIMATED from the description's own weight: {said} Nm/A; "
-            "a wrong gain, or a load on all joints alike, cannot be told in this log"
+        said = tuple(f"{g:.3g} ± {s:.2g}" for g, s in zip(gains, sigmas, strict=True))
+        log = replace(
+            log, y=log.y * gains, current=False, notes=(*log.notes, note("gains_estimated", gains=said))
         )
-        log = replace(log, y=log.y * gains, current=False, notes=(*log.notes, note))
         without = frozenset({"torque_constant"})
     if check_columns(log, robot, motion[:3], log.y, table) > HOPELESS:
         log = replace(log, foreign=True)

@@ -18,6 +18,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.ndimage import correlate1d
 
+from app.diagnosis.wording import note, smoothing_source
+
 if TYPE_CHECKING:
     from scipy.interpolate import CubicSpline
 
@@ -51,10 +53,13 @@ class Smoothing:
 
     def sentence(self) -> str:
         low, high = min(self.half_widths), max(self.half_widths)
-        width = f"{2 * low + 1}" if low == high else f"{2 * low + 1} to {2 * high + 1}"
-        return (
-            f"speed and acceleration from {self.source} by zero-phase local polynomials of degree {DEGREE} over "
-            f"{width} samples ({(2 * high + 1) * self.step:.3g} s at most), chosen by unbiased risk"
+        return note(
+            "smoothing" if low == high else "smoothing_widths",
+            source=smoothing_source(self.source),
+            degree=DEGREE,
+            low=2 * low + 1,
+            high=2 * high + 1,
+            seconds=(2 * high + 1) * self.step,
         )
 
 

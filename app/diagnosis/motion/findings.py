@@ -14,6 +14,7 @@ from app.diagnosis.motion.next_motion import next_motion
 from app.diagnosis.motion.sampling import Samples
 from app.diagnosis.motion.uncertainty import widening
 from app.diagnosis.result import Diagnosis, Evidence, Finding, Leftover, Noise, Parameter, Quality
+from app.diagnosis.wording import note
 from app.kinematics import RobotModel
 from app.kinematics.robot import GRAVITY
 
@@ -136,25 +137,16 @@ def _notes(study: Study) -> tuple[str, ...]:
     notes = [*log.notes, *study.notes, samples.smoothing.sentence()]
     if samples.repeat:
         again = samples.repeat * samples.step
-        notes.append(
-            f"the same trajectory runs again after {again:.2f} s: the noise is what differs between runs"
-        )
+        notes.append(note("repeat", seconds=again))
     if samples.thinned:
         notes.append(
-            f"{len(samples.t) * samples.window} of {len(log.t)} samples were used, in windows of {samples.window} "
-            "taken evenly over the log"
+            note("thinned", used=len(samples.t) * samples.window, total=len(log.t), window=samples.window)
         )
     elif samples.window > 1:
-        notes.append(f"torques and columns were averaged over windows of {samples.window} samples")
+        notes.append(note("averaged", window=samples.window))
     if study.prior_scale > 1:
-        notes.append(
-            f"the description's masses are further off than believed: its prior was widened {study.prior_scale:g} times"
-        )
+        notes.append(note("prior_widened", times=study.prior_scale))
     lags = [len(w.lags) for w in study.system.whiteners]
     if max(lags):
-        notes.append(
-            "the noise hangs together in time; autoregressions of order "
-            + ", ".join(map(str, lags))
-            + " (joints in order) were taken out"
-        )
+        notes.append(note("coloured", orders=tuple(lags)))
     return (*notes, *study.judgement.reasons)

@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from app.diagnosis.motion.scoring import score_all, solve
+from app.diagnosis.wording import effect, reason
+from app.phrases import Phrase
 
 if TYPE_CHECKING:
     from app.diagnosis.motion.search import Search, Term
@@ -18,9 +20,9 @@ if TYPE_CHECKING:
 SHARE = 0.7  # of what they explain together
 
 
-def imitators(search: Search, terms: list[Term]) -> dict[int, str]:
+def imitators(search: Search, terms: list[Term]) -> dict[int, Phrase]:
     """Term -> why it may not be named; nothing where signs are free (a change since a reference)."""
-    out: dict[int, str] = {}
+    out: dict[int, Phrase] = {}
     if search.change:
         return out
     for joint in {t.group.joint for t in terms if t.group.joint is not None}:
@@ -41,6 +43,5 @@ def imitators(search: Search, terms: list[Term]) -> dict[int, str]:
         for index in np.flatnonzero(board.gain > SHARE * together).tolist():
             group = board[index].group
             if not search.possible(group, others):
-                reason = f"{group.label} with a sign that no arm has would explain nearly as much"
-                out |= dict.fromkeys(here, reason)
+                out |= dict.fromkeys(here, reason("imitated", effect=effect(group.label)))
     return out

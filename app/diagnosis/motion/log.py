@@ -9,6 +9,7 @@ import numpy as np
 from scipy.ndimage import uniform_filter1d
 
 from app.diagnosis.motion.checks import backwards_rows, check_moves, check_units, spikes
+from app.diagnosis.wording import note
 from app.errors import CellValueError, InputError, MissingColumnError
 from app.kinematics import RobotModel
 from app.recordings import Table
@@ -83,7 +84,7 @@ def read_log(table: Table, robot: RobotModel) -> Log:
     if table.has(*[f"qd{j}" for j in joints]):
         qd = np.stack([table.tolerant(f"qd{j}") for j in joints], axis=1)[:, order]
     elif any(table.has(f"qd{j}") for j in joints):
-        notes.append("recorded speed is there for some joints only and was not used")
+        notes.append(note("speed_partly"))
     if table.has(*[f"temperature{j}" for j in joints]):
         temperature = np.stack([table.tolerant(f"temperature{j}") for j in joints], axis=1)
     if table.has(*[f"qc{j}" for j in joints]):
@@ -92,7 +93,7 @@ def read_log(table: Table, robot: RobotModel) -> Log:
     total = len(t)
     good = np.asarray(np.isfinite(np.column_stack([t, q, y])).all(axis=1))
     if qd is not None and good.any() and np.mean(np.isfinite(qd[good])) < 0.5:
-        notes.append("most recorded speeds are missing; speed is taken from position")
+        notes.append(note("speed_missing"))
         qd = None
     if qd is not None:
         good &= np.isfinite(qd).all(1)
@@ -106,10 +107,7 @@ def read_log(table: Table, robot: RobotModel) -> Log:
     _refuse_if_few(good, rows, table, "broken", t, q, y)
     dropped = rows[~good]
     if len(dropped):
-        share = len(dropped) / total
-        notes.append(
-            f"{len(dropped)} of {total} rows ({share:.1%}) were set aside: empty, not numbers, out of order or wild"
-        )
+        notes.append(note("rows_dropped", count=len(dropped), total=total, share=len(dropped) / total))
     t, q, y, rows = t[good], q[good], y[good], rows[good]
     qd = None if qd is None else qd[good]
     step = float(np.median(np.diff(t)))
@@ -123,7 +121,7 @@ def read_log(table: Table, robot: RobotModel) -> Log:
             "the log is nothing but gaps", file=table.path, column="t_s", expected="even sampling"
         )
     if len(cuts):
-        notes.append(f"{len(cuts)} gaps in time; each run between gaps is filtered by itself")
+        notes.append(note("gaps", count=len(cuts)))
     kept = np.zeros(len(t), bool)
     for part in segments:
         kept[part] = True
@@ -156,15 +154,11 @@ def joint_order(table: Table, robot: RobotModel, notes: list[str]) -> list[int]:
         for w in wanted
     ]
     if None in found or len(set(found)) != n:
-        notes.append(
-            f"the bag's joints ({', '.join(map(str, names))}) are not named as the robot's; taken in their order"
-        )
+        notes.append(note("bag_unnamed", names=tuple(map(str, names))))
         return list(range(n))
     order = [int(k) for k in found if k is not None]
     if order != list(range(n)):
-        notes.append(
-            f"joints were put in the robot's order by their names: {', '.join(str(names[k]) for k in order)}"
-        )
+        notes.append(note("bag_ordered", names=tuple(str(names[k]) for k in order)))
     return order
 
 
@@ -190,7 +184,7 @@ def _torques(table: Table, n: int, notes: list[str]) -> tuple[np.ndarray, bool]:
                 column="drive_gain_Nm_per_A",
                 expected=f"a list of {n} numbers, none of them 0",
             )
-        notes.append("torques are motor currents times the stated drive gains")
+        notes.append(note("currents"))
         return current * gains, False
     raise MissingColumnError(
         "neither torques nor motor currents for every joint",

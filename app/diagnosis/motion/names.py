@@ -18,6 +18,8 @@ from app.diagnosis.motion.remains import Remains, remains_of
 from app.diagnosis.motion.scoring import Board, minus_log_p, null_scores, score_all
 from app.diagnosis.motion.search import LEVEL, Search, Term
 from app.diagnosis.motion.system import Group
+from app.diagnosis.wording import curve, effect, joint_or_arm, reason, remark_of_reasons
+from app.phrases import Phrase
 
 #: A curve that takes less than this share off a joint's noise is below what smoothing and averaging may leave.
 MATERIAL = 0.01
@@ -82,21 +84,25 @@ def judge(
     why = [_objection(search, board, bar, remains, term, values, cov, gain) for term, values, cov, gain in zip(
         fit.terms, fit.values, fit.covariances, gains, strict=True)]  # fmt: skip
     for i in range(search.known):
-        why[i] = ""
+        why[i] = None
     everything = search.board(fit.solution, selected)
     wild = null_scores(everything, search.signs)
     scores = minus_log_p(gains, np.array([g.size for g in selected], int))
     p_terms = [float((1 + np.sum(wild >= s)) / (1 + len(wild))) for s in scores]
     for i, p in enumerate(p_terms):
         if i >= search.known and p > LEVEL and not why[i]:
-            why[i] = "signs turned at random explain as much"
+            why[i] = reason("chance")
     _own_angle(fit.terms, why)
-    for i, reason in imitators(search, fit.terms).items():
-        why[i] = why[i] or reason
+    for i, imitated in imitators(search, fit.terms).items():
+        why[i] = why[i] or imitated
     _followers(fit.terms, gains, why)
-    for term, reason in zip(fit.terms, why, strict=True):
-        if reason:
-            reasons.append(f"{term.group.label} at {_place(term.group)} is withheld: {reason}")
+    reasons += remark_of_reasons(
+        [
+            (effect(t.group.label), joint_or_arm(t.group.where.get("joint")), r)
+            for t, r in zip(fit.terms, why, strict=True)
+            if r
+        ]
+    )
     if any(why) and p_value > LEVEL:
         strongest = max((i for i, r in enumerate(why) if r), key=lambda i: gains[i])
         p_value = 1.0 / (1 + len(null))
@@ -109,35 +115,35 @@ def judge(
 
 def _objection(
     search: Search, board: Board, bar: float, remains: Remains, term: Term, values, covariance, gain: float
-) -> str:
-    """Why this name may not be given; empty where nothing speaks against it."""
+) -> Phrase | None:
+    """Why this name may not be given; None where nothing speaks against it."""
     law, group = term.group.law, term.group
     assert law is not None
     if not search.change and not law.lawful(values):
-        return "its values are none a real arm has"
+        return reason("unlawful")
     extra, driver = _beyond(board, group, bar)
     if extra > SHADOW * gain:
-        return f"a free curve of {driver} explains more than it"
+        return reason("curve", driver=curve(driver))
     if group.joint is not None and remains.energy[group.joint] > gain:
-        return "more is left over on this joint than it explains"
+        return reason("leftover_joint")
     if group.joint is None and float(remains.energy.sum()) > gain:
-        return "more is left over than it explains"
+        return reason("leftover")
     if law.windowed and "to_s" not in group.where:
         t = search.system.samples.t
         before = (group.where["from_s"] - t[0]) / (t[-1] - t[0])
         if not ENDS < before < 1 - ENDS:
-            return "too little of the log lies before or after it"
+            return reason("ends")
     if law.key == "torque_ripple":
         order, names = values["order"], list(values)
         std = float(np.sqrt(max(covariance[names.index("order"), names.index("order")], 0.0)))
         assert group.joint is not None
         span = float(np.ptp(search.system.samples.state.q[:, group.joint]))
         if std > BLUR * order or order * span < SWINGS * 2 * np.pi:
-            return "it has no certain period"
-    return ""
+            return reason("period")
+    return None
 
 
-def _own_angle(terms: list[Term], why: list[str]) -> None:
+def _own_angle(terms: list[Term], why: list[Phrase | None]) -> None:
     """Two or more laws of one joint's angle together are a curve, not laws."""
     for joint in {t.group.joint for t in terms if t.group.joint is not None}:
         here = [
@@ -148,10 +154,10 @@ def _own_angle(terms: list[Term], why: list[str]) -> None:
         ripples = sum(terms[i].group.label == "torque_ripple" for i in here)
         if ripples >= 2 or (len(here) >= 2 and any(why[i] for i in here)):
             for i in here:
-                why[i] = why[i] or "together with others it only draws a curve of the joint's angle"
+                why[i] = why[i] or reason("own_angle")
 
 
-def _followers(terms: list[Term], gains: np.ndarray, why: list[str]) -> None:
+def _followers(terms: list[Term], gains: np.ndarray, why: list[Phrase | None]) -> None:
     """A small law beside a large one that was withheld may be its shadow."""
     for i, term in enumerate(terms):
         if why[i] or term.group.joint is None:
@@ -159,11 +165,7 @@ def _followers(terms: list[Term], gains: np.ndarray, why: list[str]) -> None:
         near = {term.group.joint, int(term.group.where.get("source_joint", 0)) - 1}
         withheld = [gains[k] for k, t in enumerate(terms) if why[k] and t.group.joint in near]
         if withheld and gains[i] < FOLLOWER.get(term.group.label, FOLLOWER_ELSE) * max(withheld):
-            why[i] = "it may be the shadow of a stronger one that was withheld"
-
-
-def _place(group: Group) -> str:
-    return f"joint {group.where['joint']}" if "joint" in group.where else "the arm"
+            why[i] = reason("shadow")
 
 
 def _beyond(board: Board, group: Group, bar: float) -> tuple[float, str]:
@@ -174,5 +176,5 @@ def _beyond(board: Board, group: Group, bar: float) -> tuple[float, str]:
             continue
         spare = gain - candidate.size
         if spare > best:
-            best, driver = float(spare), candidate.group.name.replace("_", " ")
+            best, driver = float(spare), candidate.group.name
     return best, driver

@@ -16,6 +16,7 @@ from app.diagnosis.effects.motion._state import State
 from app.diagnosis.motion.scoring import Solution, solve
 from app.diagnosis.motion.system import Group
 from app.diagnosis.result import Finding
+from app.diagnosis.wording import effect, joint_or_arm, note
 from app.kinematics import RobotModel
 from app.kinematics.dynamics import (
     PER_LINK,
@@ -24,6 +25,7 @@ from app.kinematics.dynamics import (
     inertial_parameters,
 )
 from app.kinematics.regressor import torque_regressor
+from app.phrases import Phrase
 
 if TYPE_CHECKING:
     from app.diagnosis.motion.study import Study
@@ -33,20 +35,15 @@ DRAWN = 400
 APART = 0.5  # rad between two proposals
 FASTER = 1.3  # times the log's usual speed, at most
 _FLOOR = 0.05  # m above the base that a proposed flange keeps
-#: Effect -> the recording that would separate it from what looks the same in any log of this kind.
-SEPARATES = {
-    "payload": "a run without the load, given as --reference, tells a load from a heavier last link",
-    "torque_constant": "a run with a weighed load on the flange tells a wrong factor from wrong masses",
-    "friction_asymmetry": "no log of this joint's torque tells lopsided friction from an offset of its sensor; "
-    "the torque read with the drive off does",
-}
+#: Effects that another recording would separate from what looks the same in any log: the remarks `apart_EFFECT`.
+SEPARATES = ("payload", "torque_constant", "friction_asymmetry")
 
 
 def next_motion(
     study: Study, robot: RobotModel, findings: tuple[Finding, ...]
 ) -> tuple[tuple[tuple[float, ...], ...], tuple[str, ...]]:
     """Poses (at most COUNT), and sentences on what to record."""
-    said = tuple(dict.fromkeys(SEPARATES[f.effect] for f in findings if f.effect in SEPARATES))
+    said = tuple(dict.fromkeys(note(f"apart_{f.effect}") for f in findings if f.effect in SEPARATES))
     pair = _rivals(study, findings)
     if pair is None:
         return (), said
@@ -64,13 +61,17 @@ def next_motion(
     if not chosen:
         return (), said
     j = rival.joint if rival.joint is not None else int(np.argmax(np.abs(state.qd[chosen[0]])))
-    speeds = ", ".join(f"{state.qd[c, j]:+.2f}" for c in chosen)
-    unit = "m/s" if state.sliding[j] else "rad/s"
-    advice = f"to tell {names}: pass the next poses with joint {j + 1} at {speeds} {unit}"
+    advice = note(
+        "pass_poses",
+        speeds=tuple(f"{state.qd[c, j]:+.2f}" for c in chosen),
+        unit="m/s" if state.sliding[j] else "rad/s",
+        joint=j + 1,
+        **names,
+    )
     return tuple(tuple(float(v) for v in state.q[c]) for c in chosen), (*said, advice)
 
 
-def _rivals(study: Study, findings: tuple[Finding, ...]) -> tuple[int, Group, str] | None:
+def _rivals(study: Study, findings: tuple[Finding, ...]) -> tuple[int, Group, dict[str, Phrase]] | None:
     """The term with the nearest alternative that another log could tell from it, and that alternative's group."""
     best, pair = np.inf, None
     for finding in findings:
@@ -96,9 +97,10 @@ def _rivals(study: Study, findings: tuple[Finding, ...]) -> tuple[int, Group, st
                 None,
             )
             if group is not None and other.delta_bic < best:
-                place = f"joint {other.where['joint']}" if "joint" in other.where else "the arm"
                 best = other.delta_bic
-                pair = (index, group, f"{finding.effect} from {other.effect} at {place}")
+                place = joint_or_arm(other.where.get("joint"))
+                names = {"one": effect(finding.effect), "other": effect(other.effect), "place": place}
+                pair = (index, group, names)
     return pair
 
 

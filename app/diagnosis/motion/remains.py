@@ -9,6 +9,8 @@ import numpy as np
 from app.diagnosis.motion.errors import raw_columns
 from app.diagnosis.motion.scoring import Solution
 from app.diagnosis.motion.system import System
+from app.diagnosis.wording import joints, note
+from app.phrases import Said
 
 EXCESS = 0.10  # of the stated variance
 ABOVE = 0.05  # of the variance that free curves leave
@@ -36,22 +38,21 @@ class Remains:
         """The joint with the most left over, or None."""
         return int(np.argmax(self.energy)) if self.energy.max() > 0 else None
 
-    def sentences(self) -> list[str]:
-        out = []
-        for j in np.flatnonzero(self.energy > 0):
+    def sentences(self) -> list[Said]:
+        """Remarks on what is left over, joints that say the same together."""
+        said: dict[str, list[tuple[int, float]]] = {}
+        for j in np.flatnonzero(self.energy > 0).tolist():
             if np.isfinite(self.ratio[j]) and self.ratio[j] > 1 + EXCESS:
-                out.append(
-                    f"joint {j + 1}: what remains is {np.sqrt(self.ratio[j]):.2f} times the stated noise"
-                )
+                key, size = "above_stated", np.sqrt(self.ratio[j])
             elif np.isfinite(self.above[j]):
-                out.append(
-                    f"joint {j + 1}: what remains is {np.sqrt(self.above[j]):.2f} times what free curves leave"
-                )
+                key, size = "above_curves", np.sqrt(self.above[j])
             else:
-                out.append(
-                    f"joint {j + 1}: what remains hangs together over {self.memory[j]:.2f} s; no noise does"
-                )
-        return out
+                key, size = "hangs_together", self.memory[j]
+            said.setdefault(key, []).append((j + 1, float(size)))
+        return [
+            note(key, joints=joints([j for j, _ in found]), sizes=tuple(f"{size:.2f}" for _, size in found))
+            for key, found in said.items()
+        ]
 
 
 def remains_of(

@@ -22,6 +22,7 @@ from app.diagnosis.motion.sampling import Motion, Samples, take_samples
 from app.diagnosis.motion.search import Search, Term
 from app.diagnosis.motion.system import Group, System
 from app.diagnosis.result import Progress
+from app.diagnosis.wording import note
 from app.kinematics import RobotModel
 from app.kinematics.robot import GRAVITY
 
@@ -88,7 +89,7 @@ def examine(
     rounds = 0
     while True:
         rounds += 1
-        samples, note = _samples(log, robot, motion, tell, corrections, given)
+        samples, referred = _samples(log, robot, motion, tell, corrections, given)
         system, groups, prior, scale, windows = prepare(samples, factor, terms, given.without)
         known = known_terms(system, base) if base else []
         if base:
@@ -118,13 +119,14 @@ def examine(
     if log.stated_noise is not None:
         stated = np.sqrt(log.stated_noise**2 / samples.window + moved**2)
     if base and stated is not None:
-        stated = None if note.startswith("the reference follows the same") else stated
+        stated = None if referred.startswith("the reference follows the same") else stated
     done = corrected_by(corrections, first, fit)
     judgement = judge(search, fit, stated, moved, done)
     if log.foreign:
-        reason = "the torques do not follow the description at all: another arm, or columns mixed up; nothing is named"
-        judgement = replace(judgement, named=[False] * len(fit.terms), reasons=(reason,), leftover_p=1 / 200)
-    notes = (note,) if note else ()
+        judgement = replace(
+            judgement, named=[False] * len(fit.terms), reasons=(note("foreign"),), leftover_p=1 / 200
+        )
+    notes = (referred,) if referred else ()
     return Study(
         log,
         samples,

@@ -17,8 +17,8 @@ from app.diagnosis.report.parts.making import making, reading
 from app.diagnosis.report.parts.space import space
 from app.diagnosis.report.parts.timeline import timeline
 from app.diagnosis.report.style import CSS
-from app.diagnosis.report.wording import WORDS
 from app.diagnosis.result import Diagnosis
+from app.diagnosis.wording import WORDS
 from app.errors import InputError
 from app.kinematics import RobotModel
 from app.phrases import FALLBACK

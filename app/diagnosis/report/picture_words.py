@@ -8,7 +8,7 @@ from __future__ import annotations
 import re
 from html import escape, unescape
 
-from app.diagnosis.report.wording import WORDS
+from app.diagnosis.wording import WORDS
 from app.phrases import FALLBACK
 
 
@@ -26,6 +26,7 @@ _LABELS = _compiled(
     (r"torque error of joint (?P<n>\d+) \[(?P<unit>[^\]]+)\]", "torque_error"),
     (r"joint (?P<n>\d+) off by \[(?P<unit>[^\]]+)\]", "off"),
     (r"error along its main direction \[(?P<unit>[^\]]+)\]", "along"),
+    (r"time \[row\]", "row_time"),
     (r"time \[(?P<unit>[^\]]+)\]", "time"),
     (r"temperature \[(?P<unit>[^\]]+)\]", "temperature"),
     (r"line of the file", "line"),

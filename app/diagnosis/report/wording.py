@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from pathlib import Path
 from typing import Any
 
 from app.diagnosis.judging import BARE, MASSES, WITH
 from app.diagnosis.result import Diagnosis, Finding, Judged, Parameter
-from app.phrases import FALLBACK, Texts
+from app.diagnosis.wording import FALLBACK, WORDS, in_words
 from app.units import deg, mm, um
 
 #: SI unit of a parameter -> (unit a person reads, conversion), where they differ.
@@ -22,11 +21,10 @@ _READ_AS = {
     "m/s": ("mm/s", mm),
 }
 
-#: What a diagnosis is said in, one file a language.
-WORDS = Texts(Path(__file__).parent / "words")
 #: What is in the simulation while a given model is judged -> the key of its words.
 _STEPS = {BARE: "judged.bare", MASSES: "judged.masses", WITH: "judged.with"}
 _NEARLY_ALL = 0.99
+_UNIT_WORDS = ("row", "turn")  # units that are words
 
 
 def effect_title(key: str, language: str = FALLBACK) -> str:
@@ -103,7 +101,7 @@ def finding_sentence(finding: Finding, language: str = FALLBACK) -> str:
     if not WORDS.has("sentence.found", language):
         return finding.sentence
     values = WORDS.text("list.between", language).join(
-        f"{parameter_name(p.name, language)} {quantity(p)}" for p in finding.parameters
+        f"{parameter_name(p.name, language)} {quantity(p, language)}" for p in finding.parameters
     )
     fields = {"where": place(finding.where, language), "effect": effect_title(finding.effect, language)}
     if not values:
@@ -111,11 +109,23 @@ def finding_sentence(finding: Finding, language: str = FALLBACK) -> str:
     return WORDS.text("sentence.found", language, values=values, **fields)
 
 
-def quantity(parameter: Parameter) -> str:
+def finding_law(finding: Finding, language: str = FALLBACK) -> str:
+    """The law, its words and the names of its parameters in a language."""
+    for family in ("static", "motion"):
+        key = f"law.{family}.{finding.effect}"
+        if WORDS.has(key) and WORDS.text(key) == finding.equation:
+            return WORDS.text(key, language)
+    return in_words(finding.equation, language)
+
+
+def quantity(parameter: Parameter, language: str = FALLBACK) -> str:
     """ "12.3 ± 0.4 µrad/Nm": the uncertainty gets two digits and the value as many places."""
     unit, convert = _READ_AS.get(
         parameter.unit, ("" if parameter.unit == "1" else parameter.unit, lambda x: x)
     )
+    for word in _UNIT_WORDS:
+        if unit.endswith(f"/{word}"):
+            unit = unit.removesuffix(word) + WORDS.text(f"unit.{word}", language)
     return f"{plus_minus(float(convert(parameter.value)), float(convert(parameter.std)))} {unit}".strip()
 
 

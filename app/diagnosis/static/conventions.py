@@ -9,7 +9,9 @@ import numpy as np
 
 from app.diagnosis.static.effect import Place
 from app.diagnosis.static.recording import StaticRecording
+from app.diagnosis.wording import note
 from app.kinematics import RobotModel
+from app.phrases import Said
 from app.units import DEG_PER_RAD, MM_PER_M
 
 SIGN, SWAP, QUARTER, ANGLE_UNIT, LENGTH_UNIT, INVERSE = (float(i) for i in range(6))
@@ -56,22 +58,22 @@ def converted_joints(q: np.ndarray, fixed: Mapping[str, float]) -> np.ndarray:
     return out
 
 
-def title_of(place: Place) -> str:
+def title_of(place: Place) -> Said:
     """In words."""
     fixed = place.fixed
     kind = fixed["kind"]
     j, other = int(fixed.get("joint", 0)), int(fixed.get("other", 0))
     if kind == SIGN:
-        return f"joint {j} counts the other way round"
+        return note("convention_sign", joint=j)
     if kind == SWAP:
-        return f"joints {j} and {other} are changed over"
+        return note("convention_swap", joint=j, other=other)
     if kind == QUARTER:
-        return f"joint {j} counts from another zero, {fixed['turn'] * DEG_PER_RAD:+.0f} deg away"
+        return note("convention_quarter", joint=j, turn=fixed["turn"] * DEG_PER_RAD)
     if kind == ANGLE_UNIT:
-        return "radians and degrees are changed over"
+        return note("convention_angle_unit")
     if kind == LENGTH_UNIT:
-        return "millimetres and metres are changed over"
-    return "the measured orientation is the inverse"
+        return note("convention_length_unit")
+    return note("convention_inverse")
 
 
 def conventions(recording: StaticRecording) -> Iterator[Convention]:

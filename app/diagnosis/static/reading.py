@@ -10,6 +10,7 @@ from app.diagnosis.static.recording import Mode, StaticRecording
 from app.diagnosis.static.sensed import sensed_torques
 from app.diagnosis.static.situation import situation_for
 from app.diagnosis.static.suspicion import joint_notes, refuse_joints, refuse_measurements
+from app.diagnosis.wording import note
 from app.errors import CellValueError, InputError, TooFewPointsError
 from app.geometry import rotation_from_quaternion
 from app.kinematics import RobotModel
@@ -47,12 +48,12 @@ def read_static(table: Table, robot: RobotModel) -> StaticRecording:
     session = _numbers(table, "session", m)
     time = _optional(table, "t")
     if time is not None and np.any(np.diff(time) < 0):
-        notes.append("t_s runs backwards in places; the rows are taken in the order of the file")
+        notes.append(note("backwards"))
     pose = _poses(table, q, session)
     keep = _distinct(q, measured, time, _length_resolution(table, measured), notes)
     for mask, text in _useless(measured, session):
         if (mask & keep).any():
-            notes.append(text.format(count=int((mask & keep).sum())))
+            notes.append(note(text, count=int((mask & keep).sum())))
             keep &= ~mask
     torque = sensed_torques(table, robot, q, notes)
     recording = StaticRecording(
@@ -143,7 +144,7 @@ def _touch(table: Table, notes: list[str]) -> _Measured:
         points = table.numbers(known, missing=True)
         if np.isfinite(points).all():
             return _Measured("points", points=points[:, None], target=target, names=tuple(labels))
-        notes.append("some targets have no coordinates: all are taken as unknown")
+        notes.append(note("targets_unknown"))
     return _Measured("targets", target=target, names=tuple(labels))
 
 
@@ -158,7 +159,7 @@ def _tracker(table: Table, notes: list[str]) -> _Measured:
         lost = ~np.isfinite(points[:, r]).all(axis=1)
         points[lost, r] = np.nan
         if lost.any():
-            notes.append(f"reflector {r + 1} was lost in {int(lost.sum())} of {len(points)} rows")
+            notes.append(note("reflector_lost", number=r + 1, count=int(lost.sum()), total=len(points)))
     orientations = None
     if table.has("qw", "qx", "qy", "qz"):
         quaternion = table.numbers(["qw", "qx", "qy", "qz"], missing=True)
@@ -217,7 +218,7 @@ def _distinct(
     keep = np.zeros(len(q), bool)
     keep[first] = True
     if not keep.all():
-        notes.append(f"{int((~keep).sum())} rows are exact copies of others and were set aside")
+        notes.append(note("copies", count=int((~keep).sum())))
     return keep
 
 
@@ -225,16 +226,16 @@ def _useless(measured: _Measured, session: np.ndarray) -> list[tuple[np.ndarray,
     out = []
     if measured.mode == "targets":
         count = np.bincount(measured.target)  # type: ignore[arg-type]
-        out.append((count[measured.target] < 2, "{count} targets were touched only once and say nothing"))
+        out.append((count[measured.target] < 2, "touched_once"))
     if measured.points is not None:
         lost = ~np.isfinite(measured.points).any(axis=(1, 2))
         if measured.orientations is not None:
             lost &= ~np.isfinite(measured.orientations).all(axis=(1, 2))
-        out.append((lost, "{count} rows hold no measurement"))
+        out.append((lost, "no_measurement"))
     if measured.lengths is not None:
-        out.append((~np.isfinite(measured.lengths), "{count} rows hold no measurement"))
+        out.append((~np.isfinite(measured.lengths), "no_measurement"))
     size = np.bincount(session)
-    out.append((size[session] < 4, "{count} rows belong to sessions too short to settle their own frame"))
+    out.append((size[session] < 4, "short_sessions"))
     return out
 
 

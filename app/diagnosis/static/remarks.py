@@ -6,6 +6,7 @@ from app.diagnosis.result import Noise
 from app.diagnosis.static.as_built import spread_of
 from app.diagnosis.static.noise import known_noise, position_rms, rounding_noise
 from app.diagnosis.static.outcome import Outcome
+from app.diagnosis.wording import note
 from app.units import mm
 
 
@@ -17,30 +18,25 @@ def remarks(outcome: Outcome, noise: Noise, hopeless: bool, excess: bool) -> tup
     situation = recording.situation
     driven = [t for t in found.terms if t.where.get("driver") == "gravity_torque"]
     if situation.torque_source == "assumed" and driven:
-        out.append("the description states no masses: 20 kg per metre of link were assumed for gravity")
+        out.append(note("masses_assumed"))
     if situation.torque_source == "measured" and driven:
-        out.append("the measured joint torques were used")
+        out.append(note("torques_used"))
     if noise.source == "residual":
-        out.append("the noise is not known from repeats nor stated: it is taken from what the fit leaves")
+        out.append(note("noise_unknown"))
     if noise.source == "resolution":
-        out.append(f"the digits written make {noise.value:.2g} mm of noise by themselves")
+        out.append(note("digits", noise=noise.value))
     if plan.as_built:
-        out.append(
-            f"the arm's geometry differs in many places (about {mm(spread_of(found)):.2g} mm and as many mrad each): "
-            "all of it was fitted alongside and is part of the saved model"
-        )
+        out.append(note("as_built", spread=mm(spread_of(found))))
     if outcome.outliers.any():
-        out.append(f"{int(outcome.outliers.sum())} rows do not belong to the others and were set aside")
+        out.append(note("outliers", count=int(outcome.outliers.sum())))
     if hopeless:
-        out.append(
-            f"base and tool leave {mm(position_rms(outcome.before)):.3g} mm: the measurements do not belong to these "
-            "poses, or the recording is of another robot"
-        )
+        out.append(note("hopeless", left=mm(position_rms(outcome.before))))
     elif excess:
         known = known_noise(recording).sigma
         rounded = rounding_noise(recording, found)
-        text = f"{mm(position_rms(found)):.3g} mm remain where the noise is {noise.value:.2g} mm"
+        left = {"left": mm(position_rms(found)), "noise": noise.value}
         if known is not None and rounded > 0.7 * (position_rms(found) ** 2 - known**2) ** 0.5:
-            text += f"; the rounded angles alone make {mm(rounded):.2g} mm"
-        out.append(text)
+            out.append(note("excess_rounded", rounded=mm(rounded), **left))
+        else:
+            out.append(note("excess", **left))
     return tuple(out)

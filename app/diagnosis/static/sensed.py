@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from app.diagnosis.static.gravity import gravity_torques, lumped_masses
+from app.diagnosis.wording import note
 from app.kinematics import RobotModel
 from app.recordings import Table
 
@@ -24,12 +25,10 @@ def sensed_torques(table: Table, robot: RobotModel, q: np.ndarray, notes: list[s
         return None
     torque = table.numbers(names[: robot.joint_count])
     if not np.any(torque):
-        notes.append("the torque columns are all zero and were not used")
+        notes.append(note("torques_zero"))
         return None
     if _opposed(torque, robot, q):
-        notes.append(
-            "the controller counts joint torques as the load it feels; they were turned over to holding torques"
-        )
+        notes.append(note("torques_turned"))
         return -torque
     return torque
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from app.diagnosis.wording import note
 from app.errors import CellValueError, InputError
 from app.kinematics import RobotModel
 from app.recordings import Table
@@ -44,17 +45,14 @@ def joint_notes(robot: RobotModel, q: np.ndarray) -> list[str]:
     notes = []
     still = [j + 1 for j in range(q.shape[1]) if np.ptp(q[:, j]) == 0.0]
     if still:
-        which = ", ".join(map(str, still))
-        notes.append(f"joint {which} never moves: what sits there cannot be told from its neighbours")
+        notes.append(note("still", joints=tuple(still)))
     outside = ~robot.within_limits(q, margin=-1e-3)
     if outside.any():
-        notes.append(f"{int(outside.sum())} rows lie outside the robot's joint limits")
+        notes.append(note("outside", count=int(outside.sum())))
     turning = [j for j, joint in enumerate(robot.joints) if not joint.prismatic]
     span = np.ptp(q[:, turning], axis=0).max(initial=0.0)
     if 0.0 < span * DEG_PER_RAD < 2.0 * np.pi and span < 0.1:
-        notes.append(
-            f"all joints move by less than {deg(span):.2g} deg: degrees read as radians, or the reverse?"
-        )
+        notes.append(note("hardly", span=deg(span)))
     return notes
 
 

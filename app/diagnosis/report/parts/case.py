@@ -8,8 +8,8 @@ from html import escape
 from typing import Any
 
 from app.diagnosis.report.picture_words import translated
-from app.diagnosis.report.wording import WORDS
 from app.diagnosis.result import Diagnosis
+from app.diagnosis.wording import WORDS
 from app.kinematics import RobotModel
 from app.phrases import FALLBACK
 

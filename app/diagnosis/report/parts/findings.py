@@ -10,6 +10,7 @@ from app.diagnosis.report.wording import (
     digits,
     effect_title,
     fall,
+    finding_law,
     finding_sentence,
     measure,
     parameter_name,
@@ -44,7 +45,7 @@ def _overview(case: Case, found: Sequence[Finding], unit: str) -> str:
             str(n),
             effect_title(f.effect, case.language),
             place(f.where, case.language),
-            quantity(f.parameters[0]) if f.parameters else "",
+            quantity(f.parameters[0], case.language) if f.parameters else "",
             measure(f.heldout_rms_without, f.heldout_unit)
             if f.heldout_unit
             else digits(f.heldout_rms_without),
@@ -57,11 +58,11 @@ def _overview(case: Case, found: Sequence[Finding], unit: str) -> str:
 def _card(case: Case, number: int, f: Finding, unit: str) -> str:
     unit, language = f.heldout_unit or unit, case.language
     values = "".join(
-        f"<dt>{escape(parameter_name(p.name, language))}</dt><dd><b>{escape(quantity(p))}</b></dd>"
+        f"<dt>{escape(parameter_name(p.name, language))}</dt><dd><b>{escape(quantity(p, language))}</b></dd>"
         for p in f.parameters
     )
     if f.equation:
-        values += f'<dt>{case.t("found.law")}</dt><dd class="law">{escape(f.equation)}</dd>'
+        values += f'<dt>{case.t("found.law")}</dt><dd class="law">{escape(finding_law(f, language))}</dd>'
     smaller = fall(f.heldout_rms_without, f.heldout_rms_with, language)
     without = case.t("found.without_it", error=measure(f.heldout_rms_without, unit))
     with_it = case.t("found.with_it", error=measure(f.heldout_rms_with, unit))

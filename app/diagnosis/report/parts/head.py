@@ -7,7 +7,8 @@ from pathlib import Path
 
 from app.diagnosis.report.drawing.bars import before_after_bars
 from app.diagnosis.report.parts.case import Case, figure, key, mark
-from app.diagnosis.report.wording import WORDS, fall, measure, noise_source, verdict_sentence
+from app.diagnosis.report.wording import fall, measure, noise_source, verdict_sentence
+from app.diagnosis.wording import WORDS
 
 
 def _robot(case: Case) -> str:

@@ -8,6 +8,7 @@ import numpy as np
 
 from app.diagnosis.report.parts.case import Case, section, soft, table
 from app.diagnosis.report.wording import digits, place, probability
+from app.diagnosis.wording import in_words
 from app.units import deg, mm
 
 MOST_ROWS = 40
@@ -63,5 +64,5 @@ def next_poses(case: Case) -> str:
 
 def notes(case: Case) -> str:
     """What a reader should know about the recording or how it was read."""
-    said = "".join(f"<li>{escape(note)}</li>" for note in case.diagnosis.notes)
+    said = "".join(f"<li>{escape(in_words(note, case.language))}</li>" for note in case.diagnosis.notes)
     return section(case.t("title.notes"), f"<ul>{said}</ul>" if said else "")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from html import escape
 
 from app import __version__
-from app.diagnosis.report.wording import WORDS
+from app.diagnosis.wording import WORDS
 from app.phrases import FALLBACK
 
 _WORDS = ("before_after", "held_out", "certainty", "visible", "std", "delta_bic")

@@ -12,6 +12,7 @@ import numpy as np
 from app.diagnosis.model import SavedModel
 from app.diagnosis.report.wording import (
     effect_title,
+    finding_law,
     finding_sentence,
     joint_values,
     judged_rows,
@@ -24,6 +25,7 @@ from app.diagnosis.report.wording import (
     verdict_sentence,
 )
 from app.diagnosis.result import Diagnosis, Finding, Judged
+from app.diagnosis.wording import in_words
 from app.pendant import html
 from app.units import deg, mm
 
@@ -129,7 +131,7 @@ def _effects(pendant: Pendant, of: SavedModel) -> str:
 
 def notes(pendant: Pendant, diagnosis: Diagnosis) -> str:
     """What else a person should know: rows set aside, the engine's remarks."""
-    items = [("yellow", note) for note in diagnosis.notes]
+    items = [("yellow", in_words(note, pendant.language)) for note in diagnosis.notes]
     if diagnosis.outliers:
         rows = ", ".join(map(str, diagnosis.outliers[:_MOST_ROWS]))
         more = f" +{len(diagnosis.outliers) - _MOST_ROWS}" if len(diagnosis.outliers) > _MOST_ROWS else ""
@@ -145,7 +147,7 @@ def findings(pendant: Pendant, diagnosis: Diagnosis) -> str:
 def _card(pendant: Pendant, number: int, f: Finding, unit: str) -> str:
     unit = f.heldout_unit or unit
     t, language = pendant.t, pendant.language
-    rows = [(parameter_name(p.name, language), quantity(p)) for p in f.parameters]
+    rows = [(parameter_name(p.name, language), quantity(p, language)) for p in f.parameters]
     rows += [
         (t("compare.sure"), probability(f.p_value, language)),
         (t("compare.visible"), f"{f.visible:.0%}"),
@@ -165,7 +167,7 @@ def _card(pendant: Pendant, number: int, f: Finding, unit: str) -> str:
         f'<span style="font-weight:400;opacity:.75"> · {escape(place(f.where, language))}</span></div>'
         f'<div style="margin:3px 0">{escape(finding_sentence(f, language))}</div>'
     )
-    law = html.block(f"<i>{escape(f.equation)}</i>", style="opacity:.8") if f.equation else ""
+    law = html.block(f"<i>{escape(finding_law(f, language))}</i>", style="opacity:.8") if f.equation else ""
     return html.block(
         head + html.table(rows) + law + others,
         testid=f"compare-finding-{number}",
