@@ -11,7 +11,6 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from app.errors import ActionRefusedError
-from app.geometry import Pose
 from app.pendant.jog_way import FRAMES, Jog, JogWay
 from app.units import from_deg, from_mm
 
@@ -46,7 +45,6 @@ class Jogging:
         self._pendant = pendant
         self.enabled = self.stopped = False
         self.frame, self.increment, self.override = "joint", "continuous", 0.5
-        self.T_base_user: Pose | None = None  # None: where the table's frame is
         self._held: Jog | None = None
         self._heard = 0.0
         self._press = 0  # number of the press; belongs to the event loop

@@ -19,7 +19,7 @@ _APART = from_mm(20.0)  # taught points nearer than this give no direction
 
 def user_frame(pendant: Pendant) -> Pose:
     """T_base_user."""
-    own = pendant.jogging.T_base_user
+    own = pendant.session.state.user_frame
     return Pose.of(None, table_corner(pendant.world)) if own is None else own
 
 

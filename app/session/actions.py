@@ -45,6 +45,13 @@ class Move(Action, frozen=True, tag="move"):
     path: tuple[tuple[float, ...], ...] = ()
 
 
+class SetUserFrame(Action, frozen=True, tag="user_frame"):
+    """The user frame that is jogged in, T_base_user: a place [m] and a quaternion wxyz; None: the table's corner."""
+
+    place: tuple[float, float, float] | None = None
+    quaternion: tuple[float, float, float, float] = (1.0, 0.0, 0.0, 0.0)
+
+
 class Record(Action, frozen=True, tag="record"):
     """Records the flange pose of `q` (None: where the arm stands) for a step that has none yet."""
 
@@ -226,6 +233,7 @@ AnyAction = (
     | ChooseMode
     | ChooseMethod
     | Move
+    | SetUserFrame
     | Record
     | ReRecord
     | Delete

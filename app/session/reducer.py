@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import cache
+from typing import Any
 
 from app import catalog
 from app.session.actions import (
@@ -15,6 +16,7 @@ from app.session.actions import (
     Move,
     OpenCell,
     Redo,
+    SetUserFrame,
     Tracked,
     TrackerNext,
     TrackerUndo,
@@ -26,7 +28,7 @@ from app.session.state import SessionState
 STEPS = "app.session.steps"
 
 #: No change of the list: what Undo takes back stays the same.
-_ASIDE = Move | Tracked | TrackerNext | TrackerUndo | Finish | OpenCell | CloseCell
+_ASIDE = Move | SetUserFrame | Tracked | TrackerNext | TrackerUndo | Finish | OpenCell | CloseCell
 
 Reducer = Callable[[SessionState, AnyAction], SessionState]
 
@@ -60,14 +62,16 @@ def reduce(state: SessionState, action: AnyAction) -> SessionState:
 def _undo(state: SessionState) -> SessionState:
     if state.before is None:
         raise refusal("nothing_to_undo")
-    return state.before.but(
-        q=state.q, running=state.running, two_robots=state.two_robots, count=state.count + 1, after=state
-    )
+    return state.before.but(**_standing(state), after=state)
 
 
 def _redo(state: SessionState) -> SessionState:
     if state.after is None:
         raise refusal("nothing_to_redo")
-    return state.after.but(
-        q=state.q, running=state.running, two_robots=state.two_robots, count=state.count + 1, before=state
-    )
+    return state.after.but(**_standing(state), before=state)
+
+
+def _standing(state: SessionState) -> dict[str, Any]:
+    """What Undo and Redo leave alone."""
+    kept = {name: getattr(state, name) for name in ("q", "user_frame", "running", "two_robots")}
+    return {**kept, "count": state.count + 1}

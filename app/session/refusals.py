@@ -14,6 +14,7 @@ _SENTENCES = {
     "joint_count": "{robot} has {needed} joints, {given} were given",
     "not_a_number": "joint {joint} is not a number",
     "beyond_limit": "joint {joint} would be beyond its limit",
+    "no_frame": "these numbers are no frame",
     "touches": "{mode} takes {least} to {most} touches, not {given}",
     "missing": "not recorded yet: {titles}",
     "no_result": "there is no result yet; press Calculate first",

@@ -6,14 +6,27 @@ import msgspec
 
 from app.calibration.solving import to_json
 from app.calibration.text import page
+from app.geometry import CONVENTIONS
 from app.session.state import SessionState, TwoRobots, mode_named
 from app.simulation.tracker_cell import make_cell
 from app.simulation.tracker_procedure import senses
-from app.units import mm
+from app.units import deg, mm
 
 
 def report_text(state: SessionState) -> str:
-    """The result as a page; where there is none, what is still missing."""
+    """The result as a page; where there is none, what is still missing. With the user frame, where it was set."""
+    return "\n".join([_work(state), *_user_frame(state)])
+
+
+def _user_frame(state: SessionState) -> list[str]:
+    if state.user_frame is None:
+        return []
+    x, y, z = mm(state.user_frame.position)
+    a, b, c = deg(CONVENTIONS["ZYX"].from_rotation(state.user_frame.rotation))
+    return [f"user frame: {x:.2f}, {y:.2f}, {z:.2f} mm; A, B, C {a:.3f}, {b:.3f}, {c:.3f} deg (ZYX)"]
+
+
+def _work(state: SessionState) -> str:
     if state.result is not None:
         return page(state.result)
     if state.two_robots is not None:

@@ -80,6 +80,7 @@ class SessionState:
         entered: the tool frame typed in for the mode `direct`.
         running: the exercise that is being done.
         two_robots: the cell of two robots that is open.
+        user_frame: T_base_user that was typed or taught; None where it is the table's.
         cell_model: what is wrong with the arm in the practice cell; None where it is as described.
         count: actions so far.
         before: what Undo goes back to.
@@ -99,6 +100,7 @@ class SessionState:
     entered: Enter | None = None
     running: Running | None = None
     two_robots: TwoRobots | None = None
+    user_frame: Pose | None = None
     cell_model: SavedModel | None = None
     count: int = 0
     before: SessionState | None = field(default=None, repr=False)

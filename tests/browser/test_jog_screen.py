@@ -83,7 +83,7 @@ def typed_user_frame(person):
     field.click(click_count=3)
     person.page.keyboard.type("30")
     field.press("Enter")
-    person.until(lambda: person.pendant.jogging.T_base_user is not None, "the frame typed in")
+    person.until(lambda: person.state.user_frame is not None, "the frame typed in")
     person.until(
         lambda: np.isclose(deg(np.arccos(user_frame(person.pendant).rotation[0, 0])), 30.0), "30 degrees"
     )

@@ -12,6 +12,7 @@ from app.kinematics import solve_ik
 from app.pendant.jogging import INCREMENTS, SILENCE, TIP_SPEED, Jog
 from app.pendant.server import PendantServer
 from app.session import Store
+from app.session.actions import SetUserFrame
 from app.session.state import Tool
 from app.units import from_mm
 from benchmarks._browser import Browser
@@ -210,7 +211,10 @@ def test_a_straight_wrist_stops_a_jog_and_says_which_axes(pendant):
 def test_the_user_frame_is_jogged_along_its_own_axes(pendant, axis):
     turned = Pose.of(exp_so3(np.array([0.2, -0.3, 0.7])), np.array([0.4, 0.1, 0.2]))
     pendant.jogging.enabled, pendant.jogging.increment = True, "large"
-    pendant.jogging.T_base_user = turned
+    x, y, z = map(float, turned.position)
+    a, b, c, d = map(float, turned.quaternion)
+    pendant.post(lambda: pendant.do(SetUserFrame((x, y, z), (a, b, c, d))))
+    assert pendant.worker.idle()
     start = pendant.world.tip(pendant.q)
     press(pendant, "user", axis)
     end = pendant.world.tip(pendant.q)

@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 from app.pendant.server import PendantServer
+from app.pendant.user_frame import user_frame
 from app.session import Store
-from app.session.actions import Finish, Record
+from app.session.actions import Finish, Record, SetUserFrame
 from app.training.cell import begin
 from app.training.exercise import exercise
 from app.training.records import Records
@@ -69,6 +70,19 @@ def test_a_reload_hands_the_session_back(enter, server):
     until(lambda: not server.pendants and not server.hub.names, "the server to notice")
     _, back = enter(name)
     assert back.session.name == name and "touch1" in back.session.state.captures
+
+
+def test_the_user_frame_comes_back_with_the_session(enter, server):
+    browser, pendant = enter()
+    pendant.post(lambda: pendant.do(SetUserFrame((0.4, 0.1, 0.2), (0.0, 0.0, 0.0, 2.0))))
+    assert pendant.worker.idle()
+    frame = user_frame(pendant)
+    until(lambda: browser.token, "the token")
+    browser.close()
+    until(lambda: not server.pendants and not server.hub.names, "the server to notice")
+    _, back = enter(browser.token)
+    assert np.allclose(frame.position, [0.4, 0.1, 0.2]) and np.allclose(np.diag(frame.rotation), [-1, -1, 1])
+    assert np.array_equal(user_frame(back).matrix, frame.matrix)
 
 
 def test_a_second_tab_takes_over_and_the_first_lets_go(enter, server):

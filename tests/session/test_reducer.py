@@ -18,8 +18,10 @@ from app.session.actions import (
     Record,
     Redo,
     ReRecord,
+    SetUserFrame,
     Undo,
 )
+from app.session.report import report_text
 from app.session.state import accepted, first_state
 from tests.session.wizard import wizard_actions
 
@@ -140,3 +142,14 @@ def test_another_mode_keeps_the_points_that_mean_the_same(done):
     state, _ = done
     fewer = reduce(state, ChooseMode("touch_zx", 3))
     assert set(fewer.captures) == {"touch1", "touch2", "x", "z"}  # touch 3 became the origin too
+
+
+def test_undo_leaves_the_user_frame_and_another_arm_has_none_yet():
+    state = reduce(first_state("ur10e"), Record("touch1"))
+    state = reduce(reduce(state, SetUserFrame((0.1, 0.2, 0.3))), Undo())
+    assert not state.captures and np.allclose(state.user_frame.position, [0.1, 0.2, 0.3])
+    assert "user frame: 100.00, 200.00, 300.00 mm" in report_text(state)
+    assert reduce(state, SetUserFrame()).user_frame is None
+    assert reduce(state, ChooseRobot("iiwa7")).user_frame is None
+    with pytest.raises(ActionRefusedError):
+        reduce(state, SetUserFrame((0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0)))

@@ -110,7 +110,7 @@ class _View:
         pendant.page.numbers()
 
     def refresh(self, state: SessionState) -> None:
-        pass
+        self._user.refresh(state)
 
     def close(self) -> None:
         self._keys.remove()

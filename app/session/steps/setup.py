@@ -9,7 +9,8 @@ import numpy as np
 from app.calibration.tool import METHODS
 from app.diagnosis.static.predict import model_flange_matrix
 from app.errors import TeachframeError, UnknownNameError
-from app.session.actions import ChooseMethod, ChooseMode, ChooseRobot, Move, UseModel
+from app.geometry import Pose
+from app.session.actions import ChooseMethod, ChooseMode, ChooseRobot, Move, SetUserFrame, UseModel
 from app.session.refusals import refusal
 from app.session.state import SessionState, first_state, mode_named
 
@@ -71,6 +72,17 @@ def _move(state: SessionState, action: Move) -> SessionState:
     return state.but(q=checked_joints(state, action.q))
 
 
+def _set_user_frame(state: SessionState, action: SetUserFrame) -> SessionState:
+    if action.place is None:
+        return state.but(user_frame=None)
+    length = float(np.linalg.norm(action.quaternion))
+    if not all(map(math.isfinite, action.place)) or not math.isfinite(length) or length == 0.0:
+        raise refusal("no_frame")
+    return state.but(
+        user_frame=Pose.from_quaternion(np.array(action.quaternion) / length, np.array(action.place))
+    )
+
+
 def _use_model(state: SessionState, action: UseModel) -> SessionState:
     model = action.model
     if state.running is not None:  # an exercise has a cell of its own
@@ -96,4 +108,5 @@ ACTIONS = {
     ChooseMode: choose_mode,
     ChooseMethod: _choose_method,
     Move: _move,
+    SetUserFrame: _set_user_frame,
 }

@@ -8,6 +8,9 @@ import numpy as np
 
 from app.geometry import CONVENTIONS, Pose
 from app.pendant.user_frame import taught, user_frame
+from app.session import SessionState
+from app.session.actions import SetUserFrame
+from app.session.state import as_tuple
 from app.units import deg, from_deg, from_mm, mm
 
 if TYPE_CHECKING:
@@ -28,6 +31,7 @@ class UserFrame:
     def __init__(self, pendant: Pendant):
         self._pendant = pendant
         gui, t = pendant.client.gui, pendant.t
+        self._shown, self._typing = pendant.session.state.user_frame, False
         self._points: dict[str, np.ndarray] = {}
         self._folder = gui.add_folder(t("jog.user"), visible=False)
         with self._folder:
@@ -38,7 +42,8 @@ class UserFrame:
             teach = {t(f"jog.user_{key}"): key for key in _POINTS}
             group = gui.add_button_group(t("jog.user_teach"), tuple(teach), hint=t("jog.user_hint"))
             pendant.chosen(group, lambda label: self._teach(teach[label], label))
-            pendant.clicked(gui.add_button(t("jog.user_table"), color="gray"), self._table)
+            table = gui.add_button(t("jog.user_table"), color="gray")
+            pendant.clicked(table, lambda: pendant.do(SetUserFrame()))
         self._write()
 
     def show(self, visible: bool) -> None:
@@ -49,7 +54,11 @@ class UserFrame:
     def _typed(self) -> None:
         rotation = _ANGLES.to_rotation(from_deg(np.array(self._turn.value, float)))
         place = np.clip(np.array(self._place.value, float), -_FARTHEST_MM, _FARTHEST_MM)
-        self._set(Pose.of(rotation, from_mm(place)))
+        self._typing = True  # what stands in the fields stays as it was typed
+        try:
+            self._set(Pose.of(rotation, from_mm(place)))
+        finally:
+            self._typing = False
 
     def _teach(self, key: str, label: str) -> None:
         pendant = self._pendant
@@ -61,16 +70,21 @@ class UserFrame:
         points, self._points = self._points, {}
         origin, on_x, on_y = (points[k] for k in _POINTS)
         self._set(taught(origin, on_x, on_y, pendant.t("message.user_line")))
-        self._write()
         pendant.say("good", pendant.t("message.user_taught"))
 
-    def _table(self) -> None:
-        self._set(None)
-        self._write()
+    def _set(self, T_base_user: Pose) -> None:
+        x, y, z = as_tuple(T_base_user.position)
+        a, b, c, d = as_tuple(T_base_user.quaternion)
+        self._pendant.do(SetUserFrame((x, y, z), (a, b, c, d)))
 
-    def _set(self, T_base_user: Pose | None) -> None:
-        self._pendant.jogging.T_base_user = T_base_user
-        self._pendant.stage.user.show(user_frame(self._pendant))
+    def refresh(self, state: SessionState) -> None:
+        """Shows the frame where it changed."""
+        if state.user_frame is not self._shown:
+            self._shown = state.user_frame
+            if not self._typing:
+                self._write()
+            if self._folder.visible:
+                self._pendant.stage.user.show(user_frame(self._pendant))
 
     def _write(self) -> None:
         frame = user_frame(self._pendant)
