@@ -7,7 +7,7 @@ prior.py              how far the description's masses are believed
 library.py, curves.py laws and free curves as columns
 noise.py, whitening.py  size and memory of the noise
 system.py, joint_system.py  Gram matrices block by block
-scoring.py, directions.py  scores and their null under sign flips
+scoring.py, batches.py, directions.py  scores and their null under sign flips
 search.py, locate.py, bending.py, heldout.py  forward selection
 refining.py           laws and times looked at again together
 friction.py           a joint's friction chosen as a set

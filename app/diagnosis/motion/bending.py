@@ -38,7 +38,7 @@ def bent(system: System, prior: np.ndarray, others: list[Group], group: Group) -
         M = c.T @ c - cross @ inverse @ cross.T
         M[np.diag_indices_from(M)] += 1e-9 * np.trace(M) + 1e-300
         s = c.T @ left
-        return -float(s @ np.linalg.solve(M, s))
+        return -float(s @ np.linalg.solve(M, s)) if len(s) > 1 else -float(s[0] ** 2 / M[0, 0])
 
     best = lowest(loss, *bounds, within=1e-3, most=20)
     shape = {**group.shape, name: float(np.exp(best))}

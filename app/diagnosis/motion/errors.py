@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import cached_property
 from types import MappingProxyType
 
 import numpy as np
@@ -33,9 +34,9 @@ class ErrorTable:
         """
         self.system, self.prior, self.selected, self.response = system, prior, selected, response
         self.all = system.normal(selected)[:2]
-        every = folds(system.block_count)[:FOLDS]
-        A, g, _ = system.normal_folds(selected, every)
-        self.folds = list(zip(every, A, g, strict=True))
+        self._left_out = folds(system.block_count)[:FOLDS]
+        A, g, _ = system.normal_folds(selected, self._left_out)
+        self._rest = self.all[0] - A, self.all[1] - g  # what each fold leaves
         self.raw = raw_columns(system, selected)
         _, self.positions, _ = system.layout(selected)
         self._put_back(done)
@@ -51,7 +52,7 @@ class ErrorTable:
         if not back.any():
             return
         self.all = (self.all[0], self.all[1] + self.all[0] @ back)
-        self.folds = [(blocks, A, g + A @ back) for blocks, A, g in self.folds]
+        self._rest = self._rest[0], self._rest[1] + self._rest[0] @ back
         self.response = self.response.copy()
         for j, (columns, pos) in enumerate(zip(self.raw, self.positions, strict=True)):
             self.response[:, j] += columns @ back[pos]
@@ -66,8 +67,8 @@ class ErrorTable:
         return np.concatenate(index)
 
     def _theta(self, A: np.ndarray, g: np.ndarray, keep: np.ndarray) -> np.ndarray:
-        out = np.zeros(len(g))
-        out[keep] = solved(A[keep[:, None], keep], g[keep], self.prior)
+        out = np.zeros_like(g)
+        out[..., keep] = solved(A[..., keep[:, None], keep], g[..., keep], self.prior)
         return out
 
     def theta_with(self, terms: list[int]) -> np.ndarray:
@@ -91,18 +92,24 @@ class ErrorTable:
 
     def heldout_joints(self, terms: list[int]) -> np.ndarray:
         """(n,) [Nm] the same, joint by joint."""
-        keep = self._keep(terms)
-        blocks_of, usable = self.system.samples.blocks, self.system.samples.usable
-        total, count = np.zeros(usable.shape[1]), np.zeros(usable.shape[1])
-        for blocks, A, g in self.folds:
-            theta = self._theta(self.all[0] - A, self.all[1] - g, keep)
-            rows = blocks[blocks_of]
-            for j, (columns, pos) in enumerate(zip(self.raw, self.positions, strict=True)):
-                good = rows & usable[:, j]
-                left = self.response[good, j] - columns[good] @ theta[pos]
+        total, count = np.zeros((2, self.system.joints))
+        A, g = self._rest
+        for theta, seen in zip(self._theta(A, g, self._keep(terms)), self._folded, strict=True):
+            for j, (response, columns) in enumerate(seen):
+                left = response - columns @ theta[self.positions[j]]
                 total[j] += left @ left
-                count[j] += good.sum()
+                count[j] += len(left)
         return np.sqrt(total / np.maximum(count, 1))
+
+    @cached_property
+    def _folded(self) -> list[list[tuple[np.ndarray, np.ndarray]]]:
+        """Per fold and joint, response (r,) and columns (r, p) of the rows that the fold leaves out."""
+        blocks, usable = self.system.samples.blocks, self.system.samples.usable
+        out = []
+        for left_out in self._left_out:
+            good = left_out[blocks][:, None] & usable
+            out.append([(self.response[good[:, j], j], c[good[:, j]]) for j, c in enumerate(self.raw)])
+        return out
 
 
 def raw_columns(system: System, selected: list[Group]) -> list[np.ndarray]:

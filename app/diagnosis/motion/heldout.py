@@ -23,18 +23,21 @@ def heldout_losses(system: System, selected: list[Group], prior: np.ndarray) -> 
     left_out = folds(system.block_count)
     A, g, yy = system.normal_folds(selected, left_out)
     whole, right, _ = system.normal(selected)
-    theta = np.stack([solved(whole - a, right - r, prior) for a, r in zip(A, g, strict=True)])
-    loss = yy - 2 * np.sum(g * theta, 1) + np.einsum("fi,fij,fj->f", theta, A, theta, optimize=True)
+    theta = solved(whole - A, right - g, prior)
+    loss = yy - 2 * np.sum(g * theta, 1) + np.sum(theta * (A @ theta[:, :, None])[:, :, 0], 1)
     return np.array([loss[:FOLDS].sum(), loss[FOLDS:].sum()])
 
 
 def solved(A: np.ndarray, g: np.ndarray, prior: np.ndarray) -> np.ndarray:
-    """(p,) unknowns from normal equations (p, p), (p,), the prior's information added to the leading ones."""
-    i = len(prior)
+    """(..., p) unknowns from normal equations (..., p, p) and (..., p), the prior's information added to the
+    leading ones."""
+    i, size = len(prior), A.shape[-1]
     A = A.copy()
-    A[:i, :i] += prior
-    scale = np.sqrt(np.maximum(np.diag(A), 0.0))  # sums that cancel leave rounding
-    scale[scale <= 1e-9 * scale.max()] = np.inf  # what is not excited stays zero
-    A = A / scale / scale[:, None]
-    A[np.diag_indices_from(A)] += np.where(np.isinf(scale), 1.0, 1e-11)
-    return np.linalg.solve(A, g / scale) / scale
+    A[..., :i, :i] += prior
+    scale = np.sqrt(np.maximum(np.diagonal(A, axis1=-2, axis2=-1), 0.0))  # sums that cancel leave rounding
+    # What is not excited stays zero.
+    scale = np.where(scale <= 1e-9 * scale.max(-1, keepdims=True), np.inf, scale)
+    A /= scale[..., None, :]
+    A /= scale[..., None]
+    A[..., np.arange(size), np.arange(size)] += np.where(np.isinf(scale), 1.0, 1e-11)
+    return np.linalg.solve(A, (g / scale)[..., None])[..., 0] / scale

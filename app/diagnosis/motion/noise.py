@@ -56,7 +56,7 @@ def _whitener(samples: Samples, shared, local, extra, j: int) -> Whitener:
     pieces += [v[:, j] for g, v in shared if not g.base]
     pieces += [v for _, v in local]
     pieces += [v[:, j] if g.joint is None else v for g, v in extra if g.joint in (None, j)]
-    columns = np.concatenate(pieces, axis=1)
+    columns = np.concatenate([p.T for p in pieces])
     y = samples.y[:, j]
     quiet = usable.copy()
     residual, spent = _left(columns, y, quiet)
@@ -89,13 +89,21 @@ def _rows(samples: Samples, usable: np.ndarray) -> list[np.ndarray]:
 
 
 def _left(columns: np.ndarray, y: np.ndarray, rows: np.ndarray) -> tuple[np.ndarray, float]:
-    """Residual on all rows of a ridge fit on `rows`, and the parameters it spent."""
-    scale = np.sqrt(np.mean(columns[rows] ** 2, axis=0))
-    used = scale > 1e-12
-    scaled = columns[:, used] / scale[used]
-    part = scaled[rows]
-    gram = part.T @ part / len(part)
-    values, vectors = np.linalg.eigh(gram)
+    """Residual on all rows of a ridge fit on `rows`, and the parameters it spent.
+
+    Args:
+        columns: (k, M), each next to itself in memory.
+        y: (M,).
+        rows: (M,) True where a row counts.
+    """
+    count = np.count_nonzero(rows)
+    part = columns * rows
+    gram, right = part @ part.T / count, part @ y / count
+    scale = np.sqrt(np.diag(gram))
+    used = np.flatnonzero(scale > 1e-12)
+    scale = scale[used]
+    values, vectors = np.linalg.eigh(gram[used[:, None], used] / scale / scale[:, None])
     keep = values > _RIDGE * values[-1]
-    theta = vectors[:, keep] @ ((vectors[:, keep].T @ (part.T @ y[rows] / len(part))) / values[keep])
-    return y - scaled @ theta, float(keep.sum())
+    theta = np.zeros(len(columns))
+    theta[used] = vectors[:, keep] @ ((vectors[:, keep].T @ (right[used] / scale)) / values[keep]) / scale
+    return y - theta @ columns, float(keep.sum())

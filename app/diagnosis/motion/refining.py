@@ -49,9 +49,7 @@ def exchange(search: Search, terms: list[Term], stay: int = 0) -> list[Term]:
         gain = search.losses_without([t.group for t in terms])[i]
         own = gain - penalty * _freedom(term.group)
         taken = {key_of(g) for g in others[search.known :]}
-        here = [
-            g for g in search.groups if g.joint == term.group.joint and not g.base and key_of(g) not in taken
-        ]
+        here = [g for g in search.groups if g.joint == term.group.joint and not g.base and g.key not in taken]
         board = score_all(system, solve(system, others, search.prior), here, {}, [], null=False)
         first = board.gain - penalty * np.array([_freedom(c.group) for c in board.all()])
         for index in np.argsort(-first)[:TRIED]:
@@ -83,6 +81,8 @@ def simplify(search: Search, terms: list[Term], stay: int = 0) -> list[Term]:
     system = search.system
     for i in range(stay, len(terms)):
         group = terms[i].group
+        if group.law is None or not group.law.within:
+            continue
         smaller = next((g for g in search.groups if _contains(group, g)), None)
         if smaller is None:
             continue

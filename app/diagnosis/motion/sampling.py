@@ -124,16 +124,20 @@ def take_samples(
         q, qd, qdd = (_between(values, at) for values in (q, qd, qdd))
     n, count = robot.joint_count, len(first)
     nominal, to_last = inertial_parameters(robot), flange_to_last_link(robot)
-    regressor = np.empty((count, 10 * n, n))
-    rigid, payload = np.empty((len(t), n)), np.empty((len(t), n, 10))
+    # Samples next to each other in memory, as the fits take them.
+    regressor = np.empty((n, 10 * n, count))
+    rigid, payload = np.empty((n, len(t))), np.empty((n, 10, len(t)))
     for start in range(0, len(t), CHUNK):
         progress(0.05 + 0.2 * start / len(t), "rigid-body columns")
         part = slice(start, min(start + CHUNK, len(t)))
         columns = torque_regressor(robot, q[part], qd[part], qdd[part], gravity=gravity)
-        rigid[part] = columns @ nominal
-        payload[part] = columns[:, :, -10:] @ to_last
-        pooled = _pooled(columns, points)
-        regressor[part.start // points : part.stop // points] = np.swapaxes(pooled, 1, 2)
+        whole = np.moveaxis(columns, 0, 2)
+        rigid[:, part] = nominal @ whole
+        payload[:, :, part] = to_last.T @ whole[:, -10:]
+        regressor[:, :, part.start // points : part.stop // points] = np.moveaxis(
+            _pooled(columns, points), 0, 2
+        )
+    rigid, payload, regressor = rigid.T, np.moveaxis(payload, 2, 0), regressor.T
     gravity_columns, force_columns = gravity_and_force_columns(robot, q)
     middle = _pooled(t, points)
     wide = float(np.median(np.diff(middle))) if count > 1 else log.step

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.special import gammaincc, gammaln
 
+from app.diagnosis.motion.batches import Batch, singles, windows_of
 from app.diagnosis.motion.directions import halved
 from app.diagnosis.motion.system import REMEMBERED, Group, System
 
@@ -86,23 +87,6 @@ class Candidate:
 
 
 @dataclass(frozen=True, eq=False)
-class Batch:
-    """Groups of one size, or windows of one group.
-
-    Args:
-        raw, matrix: (c, k, k) Gram matrices bare and projected.
-        block: (c, k, B) projected block scores.
-        windows: (c, 2) block edges, or None.
-    """
-
-    groups: list[Group]
-    raw: np.ndarray
-    matrix: np.ndarray
-    block: np.ndarray
-    windows: np.ndarray | None
-
-
-@dataclass(frozen=True, eq=False)
 class Board:
     """Scores of all candidates against one model.
 
@@ -168,28 +152,8 @@ def score_all(
             for part, col, pos in zip(system.parts, solution.columns, solution.positions, strict=True)
         ]
         spread = np.zeros((p, 1))
-    found: list[Batch] = []
-    local: dict[tuple[int, int], list[Group]] = {}
-    for group in groups:
-        if group.joint is not None:
-            local.setdefault((group.joint, group.size), []).append(group)
-            continue
-        raw, cross, block = _shared(system, solution, scores, group)
-        matrix = raw - cross @ inverse @ cross.T
-        found.append(Batch([group], raw[None], matrix[None], (block - cross @ spread)[None], None))
-    own: dict[int, np.ndarray] = {}
-    for (j, size), members in local.items():
-        part, col, pos = system.parts[j], solution.columns[j], solution.positions[j]
-        if j not in own:
-            own[j] = inverse[pos[:, None], pos]
-        at = np.array([part.places[g].start for g in members])[:, None] + np.arange(size)  # (g, k)
-        raw = part.total[at[:, :, None], at[:, None, :]]
-        flat = part.total[at.reshape(-1)][:, col]  # (g k, p)
-        cross, half = flat.reshape(*at.shape, -1), (flat @ own[j]).reshape(*at.shape, -1)
-        matrix = raw - half @ np.swapaxes(cross, 1, 2)
-        block = np.moveaxis(scores[j][:, at], 0, -1) - (flat @ spread[pos]).reshape(*at.shape, -1)
-        found.append(Batch(members, raw, matrix, block, None))
-    found += [_windows(system, solution, spread, group, windows[group], null) for group in bases]
+    found = singles(system, solution, scores, spread, groups)
+    found += [windows_of(system, solution, spread, group, windows[group], null) for group in bases]
     return _board(found)
 
 
@@ -216,60 +180,6 @@ def _board(batches: list[Batch]) -> Board:
     score = minus_log_p(gain, size)
     item = np.concatenate(items or none).astype(int)
     return Board(gain, score, size, np.concatenate(visible or none), rows, batches, which, item)
-
-
-def _windows(system: System, solution: Solution, spread, group: Group, windows: np.ndarray, null: bool):
-    """All windows of one base group at once: sums over blocks are differences of running sums."""
-    D, E, U = _per_block(system, solution, group)
-    D = np.concatenate([np.zeros_like(D[:1]), np.cumsum(D, 0)])
-    E = np.concatenate([np.zeros_like(E[:1]), np.cumsum(E, 0)])
-    a, b = windows[:, 0], windows[:, 1]
-    # A window is the difference of two running sums: products of those once, whatever the number of windows.
-    flat = E.reshape(-1, E.shape[2])
-    taken = (flat @ solution.covariance @ flat.T).reshape(*E.shape[:2], *E.shape[:2]).swapaxes(1, 2)
-    raw = D[b] - D[a]
-    matrix = raw - (taken[b, b] - taken[b, a] - taken[a, b] + taken[a, a])
-    lost = (flat @ spread).reshape(*E.shape[:2], -1)
-    if null:
-        index = np.arange(len(U) + 1)
-        inside = (index >= a[:, None]) & (index < b[:, None])  # (w, B + 1)
-        block = inside[:, None, :] * np.concatenate([U, np.zeros_like(U[:1])]).T[None]
-    else:
-        running = np.concatenate([np.zeros_like(U[:1]), np.cumsum(U, 0)])
-        block = (running[b] - running[a])[:, :, None]
-    block = block - (lost[b] - lost[a])
-    return Batch([group], raw, matrix, block, windows)
-
-
-def _shared(system: System, solution: Solution, scores: list[np.ndarray], group: Group):
-    p = len(solution.theta)
-    raw, cross = np.zeros((group.size, group.size)), np.zeros((group.size, p))
-    block = np.zeros((group.size, len(scores[0])))
-    for part, col, pos, u in zip(system.parts, solution.columns, solution.positions, scores, strict=True):
-        place = part.places[group]
-        raw += part.total[place, place]
-        cross[:, pos] += part.total[place][:, col]
-        block += u[:, place].T
-    return raw, cross, block
-
-
-def _per_block(system: System, solution: Solution, group: Group):
-    """Block by block: Gram matrix (B, k, k), its cross with the model (B, k, p), scores (B, k)."""
-    blocks, p, k = system.block_count, len(solution.theta), group.size
-    D, E, U = np.zeros((blocks, k, k)), np.zeros((blocks, k, p)), np.zeros((blocks, k))
-    for j, (part, col, pos) in enumerate(
-        zip(system.parts, solution.columns, solution.positions, strict=True)
-    ):
-        if group.joint is not None and group.joint != j:
-            continue
-        place = part.places[group]
-        own, rest = part.activate(np.arange(place.start, place.stop)), part.activate(col)
-        blocks = part.blocks[:, own]
-        cross = blocks[:, :, rest]
-        D += blocks[:, :, own]
-        E[:, :, pos] += cross
-        U += blocks[:, :, 0] - cross @ solution.theta[pos]
-    return D, E, U
 
 
 def minus_log_p(gain: np.ndarray, size: np.ndarray) -> np.ndarray:

@@ -70,8 +70,8 @@ class Search:
 
     def board(self, solution: Solution, selected: list[Group], *, null: bool = True) -> Board:
         """Scores of everything that may still come in."""
-        taken = {key_of(g) for g in selected[self.known :]}
-        groups = [g for g in self.groups if not g.base and key_of(g) not in taken]
+        taken = {g.key for g in selected[self.known :]}
+        groups = [g for g in self.groups if not g.base and g.key not in taken]
         count = Counter(g.label for g in selected)
         bases = [
             g for g in self.windows if count[g.label] < MOST_EVENTS.get(g.label, 1) and len(self.windows[g])
@@ -217,7 +217,9 @@ class Search:
         for i, group in enumerate(selected):
             place = slice(at, at + group.size)
             part = solution.theta[place] + done.get(i, 0.0)
-            out.append(float(part @ np.linalg.solve(solution.covariance[place, place], part)))
+            spread = solution.covariance[place, place]
+            gain = part @ np.linalg.solve(spread, part) if group.size > 1 else part[0] ** 2 / spread[0, 0]
+            out.append(float(gain))
             at += group.size
         return np.array(out)
 
@@ -257,6 +259,4 @@ def dear(group: Group, beside: Sequence[Group]) -> float:
 
 def key_of(group: Group) -> tuple:
     """A law at a place counts once, whatever its shape."""
-    ripple = group.law is not None and group.law.key == "torque_ripple"
-    shape = tuple(sorted(group.shape.items())) if ripple else ()
-    return (group.label, tuple(sorted((k, str(v)) for k, v in group.where.items())), shape)
+    return group.key

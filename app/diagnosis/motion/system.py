@@ -8,6 +8,7 @@ small algebra, whatever the length of the log.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -18,6 +19,7 @@ from app.diagnosis.motion.sampling import Samples
 from app.diagnosis.motion.whitening import Whitener
 from app.kinematics.dynamics import PER_LINK
 
+FEW = 16  # columns whitened at a time: what is made on the way stays near the processor
 REMEMBERED = 64  # models whose solution is kept: the same ones are asked for again and again
 
 
@@ -46,6 +48,13 @@ class Group:
     @property
     def label(self) -> str:
         return self.law.key if self.law is not None else f"curve of {self.name}"
+
+    @cached_property
+    def key(self) -> tuple:
+        """A law at a place counts once, whatever its shape; a ripple's order is its place."""
+        ripple = self.law is not None and self.law.key == "torque_ripple"
+        shape = tuple(sorted(self.shape.items())) if ripple else ()
+        return (self.label, tuple(sorted((k, str(v)) for k, v in self.where.items())), shape)
 
 
 class System:
@@ -92,7 +101,9 @@ class System:
             places[group] = slice(at, at + group.size)
             rows[places[group]] = values.T
             at += group.size
-        rows[:size] = self.whiteners[j](rows[:size].T).T
+        for some in range(0, size, FEW):
+            part = slice(some, min(some + FEW, size))
+            rows[part] = self.whiteners[j](rows[part].T).T
         part = JointSystem(rows, size, inertial.shape[1], places, self.edges)
         for group, place in places.items():
             if group.base:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -31,23 +32,22 @@ class Whitener:
         weight = self.weight / self.sigma
         return out * (weight if columns.ndim == 1 else weight[:, None])
 
+    @cached_property
     def _response(self) -> np.ndarray:
         """What one innovation leaves behind, row by row."""
-        response = np.zeros(600)
-        response[0] = 1.0
-        for i in range(1, len(response)):
-            p = min(i, len(self.lags))
-            response[i] = response[i - p : i][::-1] @ self.lags[:p]
-        return response
+        lags, response = self.lags.tolist(), [1.0]
+        for i in range(1, 600):
+            response.append(sum(response[i - k] * lag for k, lag in enumerate(lags[:i], 1)))
+        return np.array(response)
 
-    @property
+    @cached_property
     def spread(self) -> float:
         """Standard deviation of the noise itself [Nm], innovation and what it drags along."""
-        return float(self.sigma * np.linalg.norm(self._response()))
+        return float(self.sigma * np.linalg.norm(self._response))
 
     def correlation(self) -> np.ndarray:
         """(400,) correlation of rows so many apart."""
-        response = self._response()
+        response = self._response
         products = np.array([response[: len(response) - k] @ response[k:] for k in range(400)])
         return products / products[0]
 

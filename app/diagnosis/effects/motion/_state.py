@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -44,6 +45,27 @@ class State:
     @property
     def joints(self) -> int:
         return self.q.shape[1]
+
+    def turned(self, joint: int, times: int) -> np.ndarray:
+        """(m,) exp(1j times q) of a joint (from 0), by halves: its powers of two are kept."""
+        key = (joint, times)
+        if key in self._powers:
+            return self._powers[key]
+        if times == 1:
+            q = self.q[:, joint]
+            out = np.empty(len(q), complex)
+            out.real, out.imag = np.cos(q), np.sin(q)
+        else:
+            low = 1 << (times.bit_length() - 1)
+            low = low // 2 if low == times else low
+            out = self.turned(joint, low) * self.turned(joint, times - low)
+        if times & (times - 1) == 0:
+            self._powers[key] = out
+        return out
+
+    @cached_property
+    def _powers(self) -> dict[tuple[int, int], np.ndarray]:
+        return {}
 
     def moves(self, joint: int) -> bool:
         """True where joint (from 0) moves enough to have friction."""

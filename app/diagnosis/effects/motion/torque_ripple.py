@@ -35,7 +35,11 @@ class TorqueRipple(JointLaw):
         return out
 
     def columns(self, state: State, where: Where, shape: Values) -> np.ndarray:
-        angle = shape["order"] * state.q[:, joint_of(where)]
+        joint, order = joint_of(where), shape["order"]
+        if order in ORDERS:  # whole powers of one turn: a few products instead of a sine
+            turned = state.turned(joint, int(order))
+            return np.stack([turned.imag, turned.real], axis=1)
+        angle = order * state.q[:, joint]
         return np.stack([np.sin(angle), np.cos(angle)], axis=1)
 
     def explain(self, where: Where, values: Values) -> str:
