@@ -13,6 +13,7 @@ from app.kinematics.regressor import torque_regressor
 
 _RIDGE = 1e-9
 POSES = 40  # at which the arm's inertia is looked at
+DIRECTIONS = 32  # random mixtures that stand for all that was fitted
 LEAST_PAIRS = 200  # rows seen twice, of which a noise can be learnt
 _LOUD = 3.0  # times the usual variance of a block: something happened there
 
@@ -51,7 +52,7 @@ def noise_of_motion(robot: RobotModel, samples: Samples) -> np.ndarray:
 def _whitener(samples: Samples, shared, local, extra, j: int) -> Whitener:
     usable = samples.usable[:, j]
     if not usable.any():
-        return estimate(samples.y[:, j], usable, samples.runs, 0.0)
+        return estimate(samples.y[:, j], usable, samples.runs, np.zeros((len(usable), 1)))
     pieces = [samples.regressor[:, PER_LINK * j :, j]]
     pieces += [v[:, j] for g, v in shared if not g.base]
     pieces += [v for _, v in local]
@@ -59,19 +60,19 @@ def _whitener(samples: Samples, shared, local, extra, j: int) -> Whitener:
     columns = np.concatenate([p.T for p in pieces])
     y = samples.y[:, j]
     quiet = usable.copy()
-    residual, spent = _left(columns, y, quiet)
+    residual, taken = _left(columns, y, quiet)
     variance = np.array([np.mean(residual[r] ** 2) if len(r) else np.nan for r in _rows(samples, usable)])
     loud = variance > _LOUD * np.nanmedian(variance)
     if loud.any() and loud.mean() < 0.5:
         quiet &= ~loud[samples.blocks]
-        residual, spent = _left(columns, y, quiet)
-    fitted = _of_runs(samples, residual, quiet, spent) or estimate(residual, quiet, samples.runs, spent)
+        residual, taken = _left(columns, y, quiet)
+    fitted = _of_runs(samples, residual, quiet, taken) or estimate(residual, quiet, samples.runs, taken)
     # The loud blocks count again in the search: only the noise was not learnt from them.
     lags = len(fitted.lags)
     return Whitener(fitted.lags, fitted.sigma, weights(usable, samples.runs, lags))
 
 
-def _of_runs(samples: Samples, residual: np.ndarray, quiet: np.ndarray, spent: float) -> Whitener | None:
+def _of_runs(samples: Samples, residual: np.ndarray, quiet: np.ndarray, taken: np.ndarray) -> Whitener | None:
     """From what differs between two runs of one trajectory, where there are two and they agree the better."""
     lag = samples.repeat
     if not lag or np.count_nonzero(both := quiet[lag:] & quiet[:-lag]) < LEAST_PAIRS:
@@ -80,30 +81,34 @@ def _of_runs(samples: Samples, residual: np.ndarray, quiet: np.ndarray, spent: f
     # Where the second run is not as the first (a load was taken up between), nothing is learnt from the pair.
     if np.mean(differs[both] ** 2) > np.mean(residual[quiet] ** 2):
         return None
-    runs = [slice(0, len(differs))]
-    return estimate(differs, both, runs, spent * np.count_nonzero(both) / np.count_nonzero(quiet))
+    # Most of what the fit took is the same in both runs, and no part of their difference.
+    apart = (taken[lag:] - taken[:-lag]) / np.sqrt(2.0)
+    return estimate(differs, both, [slice(0, len(differs))], apart)
 
 
 def _rows(samples: Samples, usable: np.ndarray) -> list[np.ndarray]:
     return [np.flatnonzero(usable & (samples.blocks == b)) for b in range(samples.block_count)]
 
 
-def _left(columns: np.ndarray, y: np.ndarray, rows: np.ndarray) -> tuple[np.ndarray, float]:
-    """Residual on all rows of a ridge fit on `rows`, and the parameters it spent.
+def _left(columns: np.ndarray, y: np.ndarray, rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Residual on all rows of a ridge fit on `rows`, and directions (M, DIRECTIONS) that stand for its hat matrix.
+
+    Products of rows of the orthonormal basis are, in mean, those of a few random mixtures of it (Hutchinson 1989).
 
     Args:
         columns: (k, M), each next to itself in memory.
         y: (M,).
         rows: (M,) True where a row counts.
     """
-    count = np.count_nonzero(rows)
     part = columns * rows
-    gram, right = part @ part.T / count, part @ y / count
+    gram, right = part @ part.T, part @ y
     scale = np.sqrt(np.diag(gram))
-    used = np.flatnonzero(scale > 1e-12)
+    used = np.flatnonzero(scale > 1e-12 * np.sqrt(np.count_nonzero(rows)))
     scale = scale[used]
     values, vectors = np.linalg.eigh(gram[used[:, None], used] / scale / scale[:, None])
     keep = values > _RIDGE * values[-1]
-    theta = np.zeros(len(columns))
-    theta[used] = vectors[:, keep] @ ((vectors[:, keep].T @ (right[used] / scale)) / values[keep]) / scale
-    return y - theta @ columns, float(keep.sum())
+    basis = np.zeros((len(columns), np.count_nonzero(keep)))
+    basis[used] = vectors[:, keep] / np.sqrt(values[keep]) / scale[:, None]
+    mixed = np.random.default_rng(0).normal(size=(basis.shape[1], DIRECTIONS))
+    mixed *= np.sqrt(len(mixed)) / np.linalg.norm(mixed)  # so that as many are taken as were fitted
+    return y - (basis @ (basis.T @ right)) @ columns, ((basis @ mixed).T @ columns).T
