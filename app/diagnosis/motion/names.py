@@ -18,6 +18,7 @@ from app.diagnosis.motion.remains import Remains, remains_of
 from app.diagnosis.motion.scoring import Board, minus_log_p, null_scores, score_all
 from app.diagnosis.motion.search import LEVEL, Search, Term
 from app.diagnosis.motion.system import Group
+from app.diagnosis.motion.uncertainty import widening
 from app.diagnosis.wording import curve, effect, joint_or_arm, reason, remark_of_reasons
 from app.phrases import Phrase
 
@@ -92,6 +93,8 @@ def judge(
     for i, p in enumerate(p_terms):
         if i >= search.known and p > LEVEL and not why[i]:
             why[i] = reason("chance")
+    for i in np.flatnonzero(_uncertain(search, fit, done, len(everything))).tolist():
+        why[i] = why[i] or reason("uncertain")
     _own_angle(fit.terms, why)
     for i, imitated in imitators(search, fit.terms).items():
         why[i] = why[i] or imitated
@@ -141,6 +144,25 @@ def _objection(
         if std > BLUR * order or order * span < SWINGS * 2 * np.pi:
             return reason("period")
     return None
+
+
+def _uncertain(search: Search, fit: ExactFit, done: dict[int, np.ndarray], candidates: int) -> np.ndarray:
+    """(terms,) True where a term could be nothing by the spread that stretches of the log show.
+
+    Masses are shared by all joints: what is wrong with one and left over pulls at laws of the others.
+    """
+    solution = fit.solution
+    widened = widening(search.system, solution, search.prior)
+    out, at = np.zeros(len(fit.terms), bool), len(solution.theta) - sum(t.group.size for t in fit.terms)
+    for i, term in enumerate(fit.terms):
+        place = slice(at, at + term.group.size)
+        at += term.group.size
+        part = solution.theta[place] + done.get(i, 0.0)
+        spread = solution.covariance[place, place] * widened[place] * widened[place][:, None]
+        wald = np.array([part @ np.linalg.solve(spread, part)])
+        sure = np.log10(candidates / LEVEL)
+        out[i] = i >= search.known and minus_log_p(wald, np.array([term.group.size]))[0] < sure
+    return out
 
 
 def _own_angle(terms: list[Term], why: list[Phrase | None]) -> None:
