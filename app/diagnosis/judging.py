@@ -11,10 +11,12 @@ from app.diagnosis.model import ModelEffect, SavedModel
 from app.diagnosis.result import Judged, Quality
 from app.kinematics import RobotModel
 from app.kinematics.dynamics import PER_LINK
+from app.kinematics.robot import GRAVITY
 from app.recordings import Table
 
 if TYPE_CHECKING:
-    from app.diagnosis.motion.sampling import Samples
+    from app.diagnosis.motion.log import Log
+    from app.diagnosis.motion.sampling import Motion, Samples
 
 BARE, WITH, MASSES = "description alone", "with the model", "with the model's masses only"
 
@@ -56,34 +58,61 @@ def _static(
 
 def _motion(table: Table, robot: RobotModel, model: SavedModel) -> dict[str, Quality]:
     from app.diagnosis.motion.engine import ready
-    from app.diagnosis.motion.sampling import take_samples
 
     log, motion, _ = ready(table, robot)
-    samples = take_samples(log, robot, motion, log.y, lambda share, what: None)
-    return {what: _torque(r, samples.usable) for what, r in torque_residuals(samples, robot, model).items()}
+    samples, residuals = torque_residuals(log, robot, motion, model)
+    return {what: _torque(r, samples.usable) for what, r in residuals.items()}
 
 
-def torque_residuals(samples: Samples, robot: RobotModel, model: SavedModel) -> dict[str, np.ndarray]:
-    """What is in the simulation -> (M, n) torque beyond it [Nm], the bare description first."""
+def torque_residuals(
+    log: Log, robot: RobotModel, motion: Motion, model: SavedModel
+) -> tuple[Samples, dict[str, np.ndarray]]:
+    """The log's samples, and what is in the simulation -> (M, n) torque beyond it [Nm], the bare description first.
+
+    Late torques, wrong factors and a leaning base are undone in the samples before the model is compared with
+    them, as the diagnosis does.
+    """
     from app.diagnosis.motion.library import laws
+    from app.diagnosis.motion.sampling import take_samples
 
-    residual = samples.y.copy()
-    steps = {BARE: samples.y}
+    bare = told = take_samples(log, robot, motion, log.y, lambda share, what: None)
+    steps = {BARE: bare.y}
+    corrected = [e for e in model.effects if e.effect in laws() and laws()[e.effect].corrected]
+    if corrected:
+        delay, scale, gravity = _undone(corrected, robot.joint_count)
+        told = take_samples(
+            log, robot, motion, log.y / (1.0 + scale), lambda share, what: None, shift=delay, gravity=gravity
+        )
+    residual = told.y.copy()
     masses = np.array(model.nuisance.get("inertial", ()), float)
     if len(masses) == PER_LINK * robot.joint_count:
         for j in range(robot.joint_count):
-            residual[:, j] -= samples.regressor[:, :, j] @ masses
-        steps[MASSES] = residual.copy()
+            residual[:, j] -= told.regressor[:, :, j] @ masses
+        steps[MASSES] = bare.y - np.einsum("mkj,k->mj", bare.regressor, masses)
     for effect in model.effects:
         law = laws().get(effect.effect)
-        if law is None or not _lasting(effect):
+        if law is None or law.corrected or not _lasting(effect):
             continue
-        added = samples.pool(law.apply(samples.state, effect.where, effect.parameters))
+        added = told.pool(law.apply(told.state, effect.where, effect.parameters))
         if added.ndim == 1:
             residual[:, int(effect.where["joint"]) - 1] -= added
         else:
             residual -= added
-    return {**steps, WITH: residual}
+    return bare, {**steps, WITH: residual}
+
+
+def _undone(effects: Sequence[ModelEffect], joints: int) -> tuple[float, np.ndarray, np.ndarray]:
+    """Delay [s], relative excess of each torque (n,), and gravity (3,) [m/s^2]."""
+    delay, scale, gravity = 0.0, np.zeros(joints), GRAVITY.copy()
+    for effect in effects:
+        values = effect.parameters
+        if effect.effect == "delay" and "joint" not in effect.where:
+            delay += values["delay"]
+        elif effect.effect == "torque_constant" and "joint" in effect.where:
+            scale[int(effect.where["joint"]) - 1] += values["scale"]
+        elif effect.effect == "gravity_direction":
+            gravity = np.array([values[k] for k in ("gx", "gy", "gz")])
+    return delay, scale, gravity
 
 
 def _lasting(effect: ModelEffect) -> bool:

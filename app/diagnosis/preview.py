@@ -53,11 +53,10 @@ def _static(table: Table, robot: RobotModel, model: SavedModel | None) -> Eviden
 def _motion(table: Table, robot: RobotModel, model: SavedModel | None) -> Evidence:
     from app.diagnosis.judging import WITH, torque_residuals
     from app.diagnosis.motion.engine import ready
-    from app.diagnosis.motion.sampling import take_samples
 
     log, motion, _ = ready(table, robot)
-    samples = take_samples(log, robot, motion, log.y, lambda share, what: None)
-    after = samples.y if model is None else torque_residuals(samples, robot, model)[WITH]
+    samples, residuals = torque_residuals(log, robot, motion, model or SavedModel("motion", robot.name))
+    after = residuals[WITH]
     return Evidence(
         rows=log.rows[samples.centre],
         measured=samples.y + samples.pool(samples.state.torque),

@@ -20,6 +20,7 @@ judged.py             learnt on one run, judged on others
 exact.py              refit with the exact laws
 names.py              what may be named, what is left over
 findings.py           the result
+confirmed.py          what was named, refitted without what was withheld: the saved model
 remains.py            what is left, against the stated noise
 study.py              one log in rounds; baseline.py: what a reference run teaches
 gains.py, suspects.py drive gains that nobody gave; columns that are not what they are called

@@ -9,6 +9,7 @@ import numpy as np
 from app.diagnosis.model import ModelEffect, SavedModel
 from app.diagnosis.motion.alternatives import alternatives_of
 from app.diagnosis.motion.commands import lag_findings
+from app.diagnosis.motion.confirmed import confirmed
 from app.diagnosis.motion.errors import ErrorTable
 from app.diagnosis.motion.next_motion import next_motion
 from app.diagnosis.motion.sampling import Samples
@@ -31,9 +32,11 @@ def build(study: Study, robot: RobotModel, file: str) -> Diagnosis:
     base = list(range(study.known))
     named = [i for i, good in enumerate(judgement.named) if good]
     widened = widening(study.system, fit.solution, study.prior)
-    findings = [_finding(study, table, i, base + named, widened) for i in named]
-    order = np.argsort([-judgement.gains[i] for i in named])
-    findings = [*(findings[k] for k in order), *lag_findings(study.log, samples.state.sliding)]
+    by_term = {i: _finding(study, table, i, base + named, widened) for i in named}
+    masses, effects = confirmed(study, robot, table, by_term)
+    order = sorted(named, key=lambda i: -judgement.gains[i])
+    late = lag_findings(study.log, samples.state.sliding)
+    findings = [*(by_term[i] for i in order), *late]
     poses, advice = next_motion(study, robot, tuple(findings))
     after_residual = table.residual(base + named)
     after = _quality(samples, after_residual, table.heldout(base + named))
@@ -46,7 +49,9 @@ def build(study: Study, robot: RobotModel, file: str) -> Diagnosis:
         verdict = "unexplained" if structure else "clean"
     if verdict == "clean":
         leftover = Leftover(judgement.leftover_p, {})
-    spread = float(np.sqrt(np.mean([w.spread**2 for w in study.system.whiteners if w.weight.any()])))
+    recorded = 1.0 + study.corrections.scale  # the samples are in the torque that was meant
+    spreads = [w.spread * k for w, k in zip(study.system.whiteners, recorded, strict=True) if w.weight.any()]
+    spread = float(np.sqrt(np.mean(np.square(spreads))))
     log = study.log
     if samples.repeat:
         noise = Noise(float(spread * np.sqrt(samples.window)), "Nm", "repeats")
@@ -73,10 +78,8 @@ def build(study: Study, robot: RobotModel, file: str) -> Diagnosis:
     model = SavedModel(
         "motion",
         robot.name,
-        tuple(
-            ModelEffect(f.effect, dict(f.where), {p.name: p.value for p in f.parameters}) for f in findings
-        ),
-        {"inertial": [float(v) for v in fit.solution.theta[: study.system.inertial_size]]},
+        (*(effects[i] for i in order), *(_as_effect(f) for f in late)),
+        {"inertial": [float(v) for v in masses]},
         file,
     )
     return Diagnosis(
@@ -85,6 +88,10 @@ def build(study: Study, robot: RobotModel, file: str) -> Diagnosis:
         outliers=tuple(int(r) for r in log.dropped), leftover=leftover, next_poses=poses, seconds=0.0,
         notes=(*_notes(study), *advice), model=model.to_dict(), evidence=evidence,
     )  # fmt: skip
+
+
+def _as_effect(finding: Finding) -> ModelEffect:
+    return ModelEffect(finding.effect, dict(finding.where), {p.name: p.value for p in finding.parameters})
 
 
 def _finding(study: Study, table: ErrorTable, index: int, named: list[int], widened: np.ndarray) -> Finding:

@@ -55,9 +55,8 @@ def judged_on(
     terms = study.fit.terms
     fixed = study.samples.y - study.fit.offset
     table = ErrorTable(study.system, study.prior, [t.group for t in terms], fixed, {})
-    lasting = [i for i, t in enumerate(terms) if not _law(t).windowed]
-    friction = [i for i in lasting if _law(t := terms[i]).common and t.group.joint is not None]
-    named = [i for i in lasting if study.judgement.named[i] or i in friction]
+    named = [i for i, good in enumerate(study.judgement.named) if good]
+    friction = [i for i in named if _law(t := terms[i]).common and t.group.joint is not None]
     out = []
     for other in others:
         new, moved, _ = ready(other, robot)
@@ -67,7 +66,7 @@ def judged_on(
             new, robot, moved, new.y / (1.0 + done.scale), tell, shift=done.delay, gravity=done.gravity
         )
         rows = [_rms(bare.y, bare.usable)]
-        for chosen in ([], friction, named, lasting):
+        for chosen in ([], friction, named, [*range(len(terms))]):
             corrected = samples if any(_law(terms[i]).corrected for i in chosen) else bare
             rows.append(_rms(_left(table, terms, chosen, corrected), corrected.usable))
         out.append(Judged(other.path.name, np.array(rows)))
@@ -85,7 +84,7 @@ def _left(table: ErrorTable, terms: Sequence[Term], chosen: list[int], samples: 
         group, law = term.group, _law(term)
         part = theta[at : at + len(law.linear)]
         at += group.size
-        if i not in chosen or law.corrected:
+        if i not in chosen or law.corrected or law.windowed:
             continue
         columns = samples.pool(law.columns(samples.state, group.where, group.shape))
         if group.joint is None:
