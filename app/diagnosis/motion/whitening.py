@@ -133,7 +133,7 @@ def _put_back(raw: np.ndarray, hat: np.ndarray, rows: int) -> np.ndarray:
 def _autoregressions(memory: np.ndarray) -> list[tuple[np.ndarray, float]]:
     """Lags and innovation variance of every order up to MOST_LAGS (Levinson, Durbin)."""
     lags, variance = np.zeros(0), float(memory[0])
-    out = [(lags, variance)]
+    out: list[tuple[np.ndarray, float]] = [(lags, variance)]
     for p in range(1, MOST_LAGS + 1):
         reflection = (memory[p] - lags @ memory[p - 1 : 0 : -1]) / variance
         if not abs(reflection) < 1.0:
