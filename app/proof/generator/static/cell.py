@@ -33,6 +33,7 @@ class Cell:
         t: (m,) [s].
         tools: (s, k, 3) [m] k points on the tool, in the flange, of each session.
         views: (s, 4, 4) base in the instrument's frame, of each session.
+        mounts: (s, 3, 3) measured body in the flange, of each session; the file does not tell it.
         session: (m,) which one each row belongs to.
         load_kg: (m,) declared load.
         load_at: (3,) [m] its centre in the flange.
@@ -51,6 +52,7 @@ class Cell:
     t: np.ndarray
     tools: np.ndarray
     views: np.ndarray
+    mounts: np.ndarray
     session: np.ndarray
     load_kg: np.ndarray
     load_at: np.ndarray
@@ -226,6 +228,12 @@ def seen(cell: Cell, world: World) -> np.ndarray:
         + world.reach[:, None, None] * points / np.where(distance > 0, distance, 1.0)
         + low
     )
+
+
+def turned(cell: Cell, world: World) -> np.ndarray:
+    """(m, 3, 3) the measured body's orientation in the instrument's frame, without noise."""
+    stands = cell.views[cell.session][:, :3, :3] @ turn_vector(world.base_turn)
+    return stands @ true_stance(cell, world).flange_rotations @ cell.mounts[cell.session]
 
 
 def effect_on_points(cell: Cell, terms: Sequence[Term], term: Term) -> np.ndarray:

@@ -21,7 +21,7 @@ from app.proof.generator.static.cell import (
     contact,
     goals,
     seen,
-    true_stance,
+    turned,
     world_with,
 )
 
@@ -31,7 +31,7 @@ DRIVERS = {"backlash": ("approach", "gravity_torque")}
 WHOLE = ("wrong_convention",)  # there or not: has no strength that could be small
 STEPS = ("base_shift", "tool_slip", "joint_slip")
 
-Change = Callable[[Cell, World], tuple[Cell, World]]
+Change = Callable[[Cell, World, float], tuple[Cell, World]]
 
 
 def reading(cell: Cell, world: World, made: Any) -> np.ndarray:
@@ -50,9 +50,8 @@ def reading(cell: Cell, world: World, made: Any) -> np.ndarray:
     if made.orientations is not None:
         from app.proof.generator.static.making import ORIENTATION_SIGMA
 
-        turned = cell.views[cell.session][:, :3, :3] @ true_stance(cell, world).flange_rotations
         # a turn by a small angle changes the nine entries by sqrt(2) times that angle
-        parts.append(turned.reshape(-1, 9) / (np.sqrt(2.0) * ORIENTATION_SIGMA))
+        parts.append(turned(cell, world).reshape(-1, 9) / (np.sqrt(2.0) * ORIENTATION_SIGMA))
     return np.hstack(parts)
 
 
@@ -61,9 +60,18 @@ def nuisance_columns(made: Any, terms: Sequence[Term], *, geometry: bool) -> np.
     cell, world = made.cell, world_with(made.cell, terms)
     columns = []
     for change in _changes(cell, geometry=geometry, known=cell.targets_known):
-        ahead = reading(*change(cell, world), made)
+        ahead = reading(*change(cell, world, STEP), made)
         columns.append(((ahead - reading(cell, world, made)) / STEP).ravel())
     return np.stack(columns, axis=1)
+
+
+def moved_reading(made: Any, terms: Sequence[Term], sizes: np.ndarray, *, geometry: bool) -> np.ndarray:
+    """(m, c) the reading with everything that is open moved by `sizes`, in the order of `nuisance_columns`."""
+    cell, world = made.cell, world_with(made.cell, terms)
+    changes = _changes(cell, geometry=geometry, known=cell.targets_known)
+    for change, size in zip(changes, sizes, strict=True):
+        cell, world = change(cell, world, float(size))
+    return reading(cell, world, made)
 
 
 def term_columns(made: Any, terms: Sequence[Term], term: Term) -> np.ndarray:
@@ -105,7 +113,13 @@ def places(made: Any) -> Iterator[Term]:
                 term = law.draw(rng, cell, asked)
             except InputError:
                 continue
-            yield replace(term, where={**term.where, "from_row": 1}) if key in STEPS else term
+            if key not in STEPS:
+                yield term
+                continue
+            term = replace(term, where={**term.where, "from_row": 1})
+            yield term
+            if key == "base_shift":  # what was knocked may have turned as well
+                yield replace(term, parameters={**term.parameters, "rx": 0.0, "ry": 0.0, "rz": 0.0})
 
 
 def _changes(cell: Cell, *, geometry: bool, known: bool) -> Iterator[Change]:
@@ -118,7 +132,8 @@ def _changes(cell: Cell, *, geometry: bool, known: bool) -> Iterator[Change]:
         for s in range(len(cell.views)):
             for axis in range(3):
                 yield _moved("views", (s, axis, 3))
-                yield _turned_view(s, axis)
+                yield _turned("views", s, axis)
+                yield _turned("mounts", s, axis)  # moves nothing where no orientation is measured
     elif known:
         for axis in range(3):
             yield _moved("fixture", (axis, 3))
@@ -136,45 +151,45 @@ def _changes(cell: Cell, *, geometry: bool, known: bool) -> Iterator[Change]:
 
 
 def _moved(name: str, index: tuple[int, ...]) -> Change:
-    def change(cell, world):
+    def change(cell, world, size):
         array = np.array(getattr(cell, name))
-        array[index] += STEP
+        array[index] += size
         return replace(cell, **{name: array}), world
 
     return change
 
 
-def _turned_view(session: int, axis: int) -> Change:
-    def change(cell, world):
-        views = cell.views.copy()
-        views[session, :3, :3] = views[session, :3, :3] @ turn_vector(STEP * np.eye(3)[axis])
-        return replace(cell, views=views), world
+def _turned(name: str, session: int, axis: int) -> Change:
+    def change(cell, world, size):
+        frames = getattr(cell, name).copy()
+        frames[session, :3, :3] = frames[session, :3, :3] @ turn_vector(size * np.eye(3)[axis])
+        return replace(cell, **{name: frames}), world
 
     return change
 
 
 def _turned_fixture(axis: int) -> Change:
-    def change(cell, world):
+    def change(cell, world, size):
         fixture = cell.fixture.copy()
-        fixture[:3, :3] = fixture[:3, :3] @ turn_vector(STEP * np.eye(3)[axis])
+        fixture[:3, :3] = fixture[:3, :3] @ turn_vector(size * np.eye(3)[axis])
         return replace(cell, fixture=fixture), world
 
     return change
 
 
 def _placed(link: int, name: str, direction: np.ndarray) -> Change:
-    def change(cell, world):
+    def change(cell, world, size):
         array = getattr(world, name).copy()
-        array[:, link] += STEP * direction
+        array[:, link] += size * direction
         return cell, replace(world, **{name: array})
 
     return change
 
 
 def _zeroed(joint: int) -> Change:
-    def change(cell, world):
+    def change(cell, world, size):
         dq = world.dq.copy()
-        dq[:, joint] += STEP
+        dq[:, joint] += size
         return cell, replace(world, dq=dq)
 
     return change

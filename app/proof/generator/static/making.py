@@ -23,7 +23,7 @@ from app.proof.generator.static.cell import (
     seen,
     shown,
     standing,
-    true_stance,
+    turned,
     world_with,
 )
 from app.proof.generator.static.poses import free_poses, newton_step, touching_poses
@@ -31,6 +31,7 @@ from app.proof.generator.static.poses import free_poses, newton_step, touching_p
 ROW_SECONDS = 8.0
 TYPICAL_COMPLIANCE = 4.0e-3  # rad at the joint's rated torque, a common harmonic drive
 ORIENTATION_SIGMA = 2.0e-4  # rad
+MOUNT = np.array([0.3, -0.2, 0.5])  # rad: how the measured body is turned in the flange
 TORQUE_SIGMA = 0.01  # of the rated torque
 TOUCHES = 1e-6  # m: a tip that is farther from its target does not touch it
 
@@ -205,6 +206,7 @@ def _draw_cell(plan: Plan, arm: Arm, described: Arm, rng: np.random.Generator) -
         t=np.round(t - t[0], 3),
         tools=tools,
         views=np.array(views),
+        mounts=np.repeat(turn_vector(MOUNT)[None], len(tools), axis=0),
         session=session,
         load_kg=loads,
         load_at=np.round(rng.normal(0, 0.02, 3) + np.array([0.0, 0.0, 0.06]), 4),
@@ -251,11 +253,8 @@ def _lengths(plan: Plan, cell: Cell, world: World, noise: np.ndarray) -> np.ndar
 
 
 def _orientations(cell: Cell, world: World, rng: np.random.Generator) -> np.ndarray:
-    where = true_stance(cell, world)
     error = turn_vector(ORIENTATION_SIGMA * rng.normal(size=(cell.m, 3)))
-    mounted = turn_vector(np.array([0.3, -0.2, 0.5]))
-    stands = cell.views[cell.session][:, :3, :3] @ turn_vector(world.base_turn)
-    return stands @ where.flange_rotations @ mounted @ error
+    return turned(cell, world) @ error
 
 
 def _torques(cell: Cell, world: World, rng: np.random.Generator) -> np.ndarray:

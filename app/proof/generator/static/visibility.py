@@ -10,10 +10,19 @@ import numpy as np
 
 from app.proof.generator.effects.term import Term
 from app.proof.generator.static.cell import world_with
-from app.proof.generator.static.columns import STEPS, nuisance_columns, places, reading, term_columns
+from app.proof.generator.static.columns import (
+    STEPS,
+    moved_reading,
+    nuisance_columns,
+    places,
+    reading,
+    term_columns,
+)
 from app.proof.generator.static.making import Made
 
 RANK = 1e-8  # relative to the largest singular value
+STEADY = 1e-4  # of the steps: quantities that are open and nearly alike are left where they are
+ROUNDS = 5
 
 
 @dataclass(frozen=True)
@@ -56,12 +65,12 @@ def visibility(made: Made, index: int, *, geometry: bool, limit: float | None) -
     """
     term = made.terms[index]
     others = [t for i, t in enumerate(made.terms) if i != index]
-    effect = reading(made.cell, world_with(made.cell, made.terms), made)
-    effect = effect - reading(made.cell, world_with(made.cell, others), made)
-    columns = [nuisance_columns(made, others, geometry=geometry)]
-    columns += [c for other in others if (c := term_columns(made, others, other)).size]
+    opened = nuisance_columns(made, others, geometry=geometry)
+    columns = [opened, *(c for other in others if (c := term_columns(made, others, other)).size)]
     project = Projector(np.hstack(columns))
-    left = project(effect.ravel())
+    left = project(
+        _unexplained(made, others, np.hstack(columns), opened.shape[1], project, geometry=geometry)
+    )
     norm = float(np.linalg.norm(left))
     if limit is None:
         return Visibility(norm / np.sqrt(left.size), norm, norm, ())
@@ -72,6 +81,36 @@ def visibility(made: Made, index: int, *, geometry: bool, limit: float | None) -
     ]
     nearest = min((g["gap"] for g in gaps), default=norm)
     return Visibility(norm / np.sqrt(left.size), norm, nearest, alike(gaps, term, norm, limit))
+
+
+def _unexplained(
+    made: Made,
+    others: Sequence[Term],
+    columns: np.ndarray,
+    opened: int,
+    project: Projector,
+    *,
+    geometry: bool,
+) -> np.ndarray:
+    """(m c) what the effect leaves once the first `opened` columns' quantities were fitted exactly.
+
+    A large effect may be wholly a matter of base and tool and yet leave the square of its size when these are
+    taken for linear: a last joint's zero of three degrees with measured orientation.
+    """
+    full = reading(made.cell, world_with(made.cell, made.terms), made).ravel()
+    sizes, left = np.zeros(opened), full - reading(made.cell, world_with(made.cell, others), made).ravel()
+    scale = np.linalg.norm(columns, axis=0)
+    scale[scale == 0] = 1.0
+    inverse = np.linalg.pinv(columns / scale, rcond=STEADY) / scale[:, None]
+    best, least = left, np.inf
+    for _ in range(ROUNDS):
+        length = float(np.linalg.norm(project(left)))
+        if not length < 0.99 * least:
+            break
+        best, least = left, length
+        sizes = sizes + (inverse @ left)[:opened]
+        left = full - moved_reading(made, others, sizes, geometry=geometry).ravel()
+    return best
 
 
 def alike(
