@@ -122,7 +122,7 @@ def _rest(d: Diagnosis, prismatic: Sequence[bool]) -> list[str]:
 def _rows(rows: Sequence[int]) -> str:
     shown = ", ".join(str(r) for r in rows[:20])
     more = f" and {len(rows) - 20} more" if len(rows) > 20 else ""
-    return f"row{'' if len(rows) == 1 else 's'} {shown}{more}"
+    return f"line{'' if len(rows) == 1 else 's'} {shown}{more} of the file"
 
 
 def _item(label: str, text: str, indent: int = 3) -> list[str]:

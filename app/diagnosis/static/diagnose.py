@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import time as clock
+from dataclasses import replace
 
 import numpy as np
 
 from app.diagnosis.model import SavedModel
 from app.diagnosis.result import Diagnosis, Progress
-from app.diagnosis.static.fit import Fitted, fit
+from app.diagnosis.static.fit import Fitted, Term, fit
 from app.diagnosis.static.gross import Rewritten, rewritten
 from app.diagnosis.static.models import held_terms, undone
 from app.diagnosis.static.outcome import Outcome
@@ -20,6 +21,9 @@ from app.diagnosis.static.robust import outlier_rows
 from app.diagnosis.static.verdict import conclude
 from app.kinematics import RobotModel
 from app.recordings import Table
+
+#: Rows, and share of all rows, set aside from which on they are looked at as a sign of something.
+FEW, MANY = 3, 0.05
 
 
 def diagnose(
@@ -57,18 +61,61 @@ def diagnose(
 
 
 def everywhere(recording: StaticRecording, fitted: Fitted) -> Fitted:
-    """The same model fitted to every row, outliers included."""
+    """The same model held against every row, outliers included."""
     weights = recording.present * fitted.weights.max(axis=0)
-    return fit(recording, fitted.setup, fitted.terms, weights, held=fitted.held, iterations=0)
+
+    def held(terms: tuple[Term, ...]) -> Fitted:
+        return fit(recording, fitted.setup, terms, weights, held=fitted.held, iterations=0)
+
+    best = held(fitted.terms)
+    for index, term in enumerate(fitted.terms):
+        # Rows set aside just before a step may well be those with which it began.
+        for row in _before(recording, fitted, term):
+            earlier = replace(term, place=replace(term.place, where={**term.where, "from_row": row}))
+            trial = held((*best.terms[:index], earlier, *best.terms[index + 1 :]))
+            best = trial if trial.rss < best.rss else best
+    return best
+
+
+def _before(recording: StaticRecording, fitted: Fitted, term: Term) -> list[int]:
+    """Rows that were set aside between a step's first row and the last one kept before it."""
+    if "from_row" not in term.where:
+        return []
+    begins, kept, rows = (
+        int(term.where["from_row"]),
+        fitted.recording.situation.order,
+        recording.situation.order,
+    )
+    last = kept[kept < begins].max(initial=-1)
+    return [int(row) for row in rows[(rows > last) & (rows < begins)]]
 
 
 def search(written: Rewritten, held, seed: int, tick) -> Outcome:
-    """Robust forward search: outliers are judged with the base fit, and again with what was found."""
+    """Robust forward search: outliers are judged with the base fit, and again with what was found.
+
+    What happens late in a recording makes its rows look like outliers to a fit without it, and is lost with them.
+    So where many were set aside and nothing was found, all rows are looked at together; what makes most of them
+    belong again stands.
+    """
     rng = np.random.default_rng(seed)
+    first = outlier_rows(written.plain)
+    outcome = _search(written, held, first, rng, tick)
+    aside = int(outcome.outliers.sum())
+    if aside < max(FEW, MANY * written.recording.size) or _named(outcome):
+        return outcome
+    whole = _search(written, held, np.zeros_like(first), rng, tick)
+    return whole if _named(whole) and 2 * whole.outliers.sum() <= aside else outcome
+
+
+def _named(outcome: Outcome) -> bool:
+    return any(not term.tacit for term in outcome.plan.found.fitted.terms)
+
+
+def _search(written: Rewritten, held, out: np.ndarray, rng: np.random.Generator, tick) -> Outcome:
+    """Twice at most: without the rows `out`, and without those that do not belong to what was found."""
     recording = written.recording
     kept = np.ones(recording.size, bool)
     before = written.plain
-    out = outlier_rows(before)
     plan = None
     for _ in range(2):
         kept = ~out

@@ -88,8 +88,10 @@ def _rivalled(fitted: Fitted, named: list[int]) -> Doubt | None:
     joints = {int(fitted.terms[i].where["joint"]) for i in named if "joint" in fitted.terms[i].where}
     for joint in sorted(joints):
         mine = [i for i in named if fitted.terms[i].where.get("joint") == joint]
-        for family in ("own_angle", "gravity_torque", "approach"):
-            rivals = [i for i in mine if _family(fitted.terms[i]) == family]
+        for family in ("own_angle", "gravity_torque", "approach", "play"):
+            # Play that is wider than most moves looks like a law of the joint's own angle.
+            followed = "own_angle" if family == "play" else family
+            rivals = [i for i in mine if _family(fitted.terms[i]) == followed]
             if not rivals or all(fitted.terms[i].effect.key == "joint_zero" for i in rivals):
                 continue
             advantage = outsider_advantage(fitted, rivals, joint, family)
@@ -97,7 +99,8 @@ def _rivalled(fitted: Fitted, named: list[int]) -> Doubt | None:
             if _slight(fitted, rivals, advantage):
                 continue
             if advantage > best:
-                best, found = advantage, Doubt({"joint": joint, "driver": family}, _curve(family))
+                driver = _DRIVERS.get(family, family)
+                best, found = advantage, Doubt({"joint": joint, "driver": driver}, _curve(driver))
     return found
 
 

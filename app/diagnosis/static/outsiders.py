@@ -17,7 +17,7 @@ from app.diagnosis.static.situation import Situation
 
 _CENTRES = np.linspace(0.1, 0.9, 9)  # quantiles of the driver at which a law may have its middle
 _STEEPNESS = (1.0, 2.0, 3.0, 6.0)  # over half the driver's range
-_WIDTHS = (0.05, 0.1, 0.2, 0.35)  # of play that remembers, as a share of the joint's range
+_WIDTHS = (0.05, 0.1, 0.2, 0.3, 0.45)  # of play that remembers, as a share of the joint's range
 #: What an outside law may follow.
 FAMILIES = ("own_angle", "gravity_torque", "approach", "play", "product")
 #: BIC by which an outsider must beat one named law before its name is withheld.

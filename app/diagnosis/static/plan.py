@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from app.diagnosis.result import Leftover
+from app.diagnosis.static.alternatives import MARGIN
 from app.diagnosis.static.as_built import evidence, fit_as_built, relearnt
 from app.diagnosis.static.doubts import Doubt, doubt_of, leftover_doubt, stand_in
 from app.diagnosis.static.fit import Fitted, fit
@@ -16,6 +17,7 @@ from app.diagnosis.static.leftover import LEVEL, leftover_of
 from app.diagnosis.static.library import GEOMETRY, Candidate, candidates
 from app.diagnosis.static.noise import position_rms, weights_from
 from app.diagnosis.static.search import Found, forward
+from app.diagnosis.static.shape import SHARE, law_gain
 
 #: So many findings on one arm are a sign that all its geometry is off.
 MANY = 3
@@ -50,11 +52,25 @@ class Plan:
 
     @property
     def shadows(self) -> frozenset[tuple]:
-        """Labels of findings that sit where structure without a name remains: they may be its shadow."""
-        joints = {d.where.get("joint") for d in (*self.withheld, *([self.doubt] if self.doubt else []))}
-        joints.discard(None)
-        terms = [t for t in self.found.fitted.terms if not t.tacit]
-        return frozenset(t.label for t in terms if t.where.get("joint") in joints)
+        """Labels of findings that sit where structure without a name remains: they may be its shadow.
+
+        Not so where that structure is small beside what the finding explains.
+        """
+        fitted, joints = self.found.fitted, {d.where.get("joint") for d in self.withheld} - {None}
+        out = set()
+        for index, term in enumerate(fitted.terms):
+            joint = term.where.get("joint")
+            if term.tacit or joint is None:
+                continue
+            remains = self.doubt is not None and self.doubt.where.get("joint") == joint
+            if joint in joints or (remains and not self._slight(index)):
+                out.add(term.label)
+        return frozenset(out)
+
+    def _slight(self, index: int) -> bool:
+        """True where all that remains, noise included, is next to nothing beside what term `index` explains."""
+        fitted = self.found.fitted
+        return fitted.rss < SHARE * law_gain(fitted, index)
 
     @property
     def sound(self) -> bool:
@@ -84,6 +100,8 @@ def explore(before: Fitted, rng: np.random.Generator, tick: Tick) -> Plan:
     curved = _with_curves(first, before, wanted, rng, tick)
     pictures = (curved, built) if first.doubt is not None else (first, curved, built)
     best = min(pictures, key=lambda plan: plan.evidence)
+    if best is first and built.sound and built.evidence - first.evidence < MARGIN:
+        best = built  # as likely, and it names less
     if best is built and not built.sound:
         # With free curves in, an arm as built may fit worse than the sound description did with them.
         again = _with_curves(built, fit_as_built(before), physical, rng, tick)

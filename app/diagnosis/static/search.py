@@ -7,31 +7,33 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from app.diagnosis.static.chance import Chance
 from app.diagnosis.static.fit import Fitted, fit
 from app.diagnosis.static.heldout import heldout_loss
-from app.diagnosis.static.library import Candidate, library
+from app.diagnosis.static.library import Candidate
 from app.diagnosis.static.looking import (
     LEAST_VISIBLE,
     at_bound,
     key_of,
     new_term,
-    score_all,
     with_ghosts,
     without,
 )
 from app.diagnosis.static.noise import weights_from
+from app.diagnosis.static.ranking import TRIES, by_rank
 from app.diagnosis.static.scan import SCAN_ROWS, with_row
 from app.diagnosis.static.score import Scores, basis, family_wise, flips
-from app.diagnosis.static.serial import coloured_score, stretch, stretch_flips
+from app.diagnosis.static.serial import coloured_score
 from app.diagnosis.static.settling import exchanged, settle
+from app.diagnosis.static.together import two_at_once
 
 #: A term is taken only where chance would do as well in at most this share of searches.
 LEVEL = 0.01
 MOST_TERMS = 6
 MOST_EXCHANGES = 3
 NULLS = 199
-_TRIES = 8  # candidates looked at before a round is given up
-_ALIKE = 0.05  # difference of -log10 p below which two candidates count as exactly alike
+#: Share of the sum of squares that a large effect leaves at most.
+LARGE = 0.5
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,15 +63,19 @@ def forward(
     """Takes terms while the best one beats chance and the rows left out agree."""
     now, p_values = start, []
     null = np.zeros(0)
-    signs = flips(rng, with_ghosts(start.recording.pose, start.ghosts), nulls)
+    chance = Chance(wanted, rng, flips(rng, with_ghosts(start.recording.pose, start.ghosts), nulls), level)
     exchanges = 0
     while len(p_values) < MOST_TERMS:
         tick(len(p_values) / MOST_TERMS, "looking for what is missing")
-        base = basis(now.jacobian)
-        scores = score_all(now, library(now.columns, wanted, now.ghosts), base, signs)
+        scores = chance.scores(now)
         null = scores.null
-        taken = _take(now, scores, level, lambda trial: serial_null(trial, wanted, rng, nulls))
+        taken = take(now, scores, chance)
         if taken is None:
+            both = two_at_once(now, scores, chance, take)
+            if both is not None:
+                now, p_values = settle(both[0], wanted), p_values + both[1]
+                now = exchanged(now, wanted) or now
+                continue
             # Pairs are looked at when there are two terms, and once more when nothing else is to be had.
             other = exchanged(now, wanted) if exchanges < MOST_EXCHANGES else None
             if other is None:
@@ -84,31 +90,16 @@ def forward(
     return Found(now, tuple(p_values), null)
 
 
-def serial_null(
-    trial: Fitted, wanted: tuple[Candidate, ...], rng: np.random.Generator, nulls: int
-) -> np.ndarray | None:
-    """The null where errors come in stretches of time, from what the trial leaves; None where they do not."""
-    length = stretch(trial)
-    if length == 1:
-        return None
-    signs = stretch_flips(rng, with_ghosts(trial.recording.pose, trial.ghosts), nulls, length)
-    base = basis(trial.jacobian)
-    return score_all(trial, library(trial.columns, wanted, trial.ghosts), base, signs).null
-
-
-def _take(
-    now: Fitted, scores: Scores, level: float, in_stretches: Callable[[Fitted], np.ndarray | None]
-) -> tuple[Fitted, float] | None:
-    """The fit with the best candidate that stands, or None.
+def take(now: Fitted, scores: Scores, chance: Chance) -> tuple[Fitted, float] | None:
+    """The fit with the best candidate that stands and its family-wise p, or None.
 
     Args:
-        in_stretches: gives the null of serially correlated errors for a trial, or None.
+        scores: of the library on what `now` leaves.
     """
     present = {key_of(term.effect.key, term.where) for term in now.terms}
-    order = scores.order()
-    for index in _by_rank(order, scores)[:_TRIES]:
+    for index in by_rank(scores.order(), scores)[:TRIES]:
         p_value = scores.p_value(index)
-        if not p_value <= level:
+        if not p_value <= chance.level:
             return None
         candidate = scores.candidates[index]
         if (
@@ -121,14 +112,19 @@ def _take(
         )
         if at_bound(trial, len(trial.terms) - 1) or not improves(now, trial):
             continue
-        null = in_stretches(trial)
+        null = chance.in_stretches(trial)
         if null is not None:
             p_value = max(p_value, family_wise(scores.score[index], null))
-            if p_value > level:
+            if p_value > chance.level:
                 return None
         if follows_the_clock(candidate):
-            p_value = max(p_value, family_wise(coloured_score(trial, len(trial.terms) - 1), scores.null))
-            if p_value > level:
+            score = coloured_score(trial, len(trial.terms) - 1)
+            coloured = family_wise(score, scores.null)
+            if coloured > chance.level and trial.rss < LARGE * now.rss:
+                # A large effect makes the null in which it is to be seen: what it leaves is the better one.
+                coloured = family_wise(score, chance.scores(trial).null)
+            p_value = max(p_value, coloured)
+            if p_value > chance.level:
                 continue
         trial = fit(trial.recording, trial.setup, trial.terms, weights_from(trial), held=trial.held)
         return trial, p_value
@@ -139,20 +135,6 @@ def follows_the_clock(candidate: Candidate) -> bool:
     """True for steps and drifts, which errors that remember imitate."""
     where = candidate.place.where
     return candidate.place.scan or "from_row" in where or where.get("driver") == "time"
-
-
-def _by_rank(order: np.ndarray, scores: Scores) -> list[int]:
-    """By score; among candidates that explain exactly alike, the one a person would name first."""
-    best: list[int] = []
-    left = list(order[:30])
-    while left:
-        top = scores.score[left[0]]
-        alike = [i for i in left if top - scores.score[i] < _ALIKE and top > 0]
-        alike = alike or left[:1]
-        alike.sort(key=lambda i: (scores.candidates[i].effect.rank, -scores.score[i]))
-        best += alike
-        left = [i for i in left if i not in alike]
-    return best
 
 
 def improves(before: Fitted, after: Fitted) -> bool:

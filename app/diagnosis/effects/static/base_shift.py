@@ -5,6 +5,9 @@ from __future__ import annotations
 from app.diagnosis.static.body import base_columns, displaced_base, size
 from app.diagnosis.static.effect import Place, Quantity, StaticEffect, masked, since
 
+#: m: what moves farther is another set-up, not a knock; without it steps imitate targets that were mixed up.
+_FARTHEST = 0.1
+
 
 class BaseShift(StaticEffect):
     key = "base_shift"
@@ -16,7 +19,7 @@ class BaseShift(StaticEffect):
         return [Place({"body": "base"}, {"turning": turning}, scan=True) for turning in (0.0, 1.0)]
 
     def quantities(self, situation, place):
-        shift = tuple(Quantity(f"d{c}", "mm") for c in "xyz")
+        shift = tuple(Quantity(f"d{c}", "mm", lower=-_FARTHEST, upper=_FARTHEST) for c in "xyz")
         turn = tuple(Quantity(f"r{c}", "deg") for c in "xyz")
         return shift + turn if place.fixed["turning"] else shift
 
