@@ -9,16 +9,15 @@ import resource
 import subprocess
 import sys
 import tempfile
-import time
 from pathlib import Path
 
 import numpy as np
-import pinocchio as pin
+import pinocchio as pin  # pyright: ignore[reportMissingImports]  (found through a .pth hook)
 
 from app.kinematics import load_robot
 from app.kinematics.dynamics import inertial_parameters, inverse_dynamics
 from app.kinematics.regressor import torque_regressor
-from benchmarks.rows import Row
+from benchmarks.rows import Row, quickest
 
 LENGTHS = {10_000: 0.3, 100_000: 2.0, 1_000_000: 20.0}  # samples -> aim [s]
 FIT_SAMPLES = 2000
@@ -67,32 +66,36 @@ def fits() -> tuple[float, float, float]:
     robot = load_robot("ur10e")
     _, q, qd, qdd = swinging(FIT_SAMPLES, 50.0)
     torque = inverse_dynamics(robot, q, qd, qdd)
-    start = time.process_time()
-    Y = torque_regressor(robot, q, qd, qdd)
-    gram, right = np.zeros((60, 60)), np.zeros(60)
-    for j in range(6):  # a joint feels the links beyond it only
-        part = Y[:, j, 10 * j :]
-        gram[10 * j :, 10 * j :] += part.T @ part
-        right[10 * j :] += part.T @ torque[:, j]
-    theta = np.linalg.lstsq(gram + 1e-9 * np.eye(60), right, rcond=None)[0]
-    ours = time.process_time() - start
-    assert np.abs(Y @ theta - torque).max() < 1e-5  # the same residual as theirs: none
-    start = time.process_time()
-    nominal, step = inertial_parameters(robot), 1e-6
-    columns = np.empty((torque.size, 60))
-    for k in range(60):
-        moved = nominal.copy()
-        moved[k] += step
-        model = pin.Model(robot.model)
-        for link in range(6):
-            model.inertias[link + 1] = pin.Inertia.FromDynamicParameters(moved[10 * link : 10 * link + 10])
-        data = model.createData()
-        changed = np.array(
-            [pin.rnea(model, data, a, b, c).copy() for a, b, c in zip(q, qd, qdd, strict=True)]
-        )
-        columns[:, k] = ((changed - torque) / step).reshape(-1)
-    np.linalg.lstsq(columns, torque.reshape(-1), rcond=None)
-    return ours, time.process_time() - start, _figaroh(robot.model, q, qd, qdd, torque)
+
+    def ours() -> np.ndarray:
+        Y = torque_regressor(robot, q, qd, qdd)
+        gram, right = np.zeros((60, 60)), np.zeros(60)
+        for j in range(6):  # a joint feels the links beyond it only
+            part = Y[:, j, 10 * j :]
+            gram[10 * j :, 10 * j :] += part.T @ part
+            right[10 * j :] += part.T @ torque[:, j]
+        return np.linalg.solve(gram + 1e-9 * np.eye(60), right)
+
+    def differences() -> np.ndarray:
+        nominal, step = inertial_parameters(robot), 1e-6
+        columns = np.empty((torque.size, 60))
+        for k in range(60):
+            moved = nominal.copy()
+            moved[k] += step
+            model = pin.Model(robot.model)
+            for link in range(6):
+                part = slice(10 * link, 10 * link + 10)
+                model.inertias[link + 1] = pin.Inertia.FromDynamicParameters(moved[part])
+            data = model.createData()
+            changed = np.array(
+                [pin.rnea(model, data, a, b, c).copy() for a, b, c in zip(q, qd, qdd, strict=True)]
+            )
+            columns[:, k] = ((changed - torque) / step).reshape(-1)
+        return np.linalg.lstsq(columns, torque.reshape(-1), rcond=None)[0]
+
+    left = np.abs(torque_regressor(robot, q, qd, qdd) @ ours() - torque)
+    assert left.max() < 1e-5  # the same residual as theirs: none
+    return quickest(ours, 9), quickest(differences, 3), _figaroh(robot.model, q, qd, qdd, torque)
 
 
 def _figaroh(model, q, qd, qdd, torque) -> float:
@@ -110,10 +113,12 @@ def _figaroh(model, q, qd, qdd, torque) -> float:
         "has_actuator_inertia": False, "has_joint_offset": False, "force_torque": None,
         "act_idxv": list(range(6)), "act_Jid": list(range(1, 7)),
     }  # fmt: skip
-    start = time.process_time()
-    W = build_regressor_basic(Arm(), q, qd, qdd, options)
-    np.linalg.lstsq(W, torque.T.reshape(-1), rcond=None)
-    return time.process_time() - start
+
+    def theirs() -> np.ndarray:
+        W = build_regressor_basic(Arm(), q, qd, qdd, options)
+        return np.linalg.lstsq(W, torque.T.reshape(-1), rcond=None)[0]
+
+    return quickest(theirs, 9)
 
 
 def run(lengths: tuple[int, ...] = tuple(LENGTHS)) -> list[Row]:

@@ -11,7 +11,6 @@ os.environ.setdefault("OMP_NUM_THREADS", "1")  # before numpy is imported; one t
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 import tempfile
-import time
 from pathlib import Path
 
 import numpy as np
@@ -25,7 +24,7 @@ from app.diagnosis.static.noise import component_rms
 from app.diagnosis.static.plain import plain_fit
 from app.diagnosis.static.reading import read_static
 from app.kinematics import load_robot
-from benchmarks.rows import Row
+from benchmarks.rows import Row, quickest
 from tests.diagnosis.static.simulating import poses, term, tracker_rows, write_tracker
 
 ROBOT = "ur10e"
@@ -41,16 +40,6 @@ def recording(folder: Path, robot, rows: int, terms=()):
     rng = np.random.default_rng(rows)
     q = poses(robot, rng, rows)
     return write_tracker(folder / f"r{rows}.csv", robot, q, tracker_rows(robot, q, terms, rng=rng))
-
-
-def quickest(function, rounds: int) -> float:
-    """Shortest of several calls [s]: processor time of this one-threaded process, whoever else is on the machine."""
-    best = float("inf")
-    for _ in range(rounds):
-        start = time.process_time()
-        function()
-        best = min(best, time.process_time() - start)
-    return best
 
 
 def run() -> list[Row]:
