@@ -15,11 +15,12 @@ class Hand(Browser):
 
     Attributes:
         rows: label -> uuid of every row of buttons on the page now.
+        fields: label -> uuid of the sliders and number fields that were made last.
         gone: set when the connection has ended and all that came by it is read.
     """
 
     def __init__(self, port, token=None):
-        self.rows, self._labels, self._handle = {}, {}, ("", "")
+        self.rows, self.fields, self._labels, self._handle = {}, {}, {}, ("", "")
         self.gone, self._news = threading.Event(), threading.Condition()
         super().__init__(port, token)
 
@@ -37,6 +38,12 @@ class Hand(Browser):
     def press(self, row, button):
         """One button of a row, as viser's page sends it."""
         self.send("GuiUpdateMessage", uuid=self.rows[row], updates={"value": button})
+
+    def type(self, field, *values, every=0.1):
+        """What viser's page sends while somebody types: the number as it stands after each key."""
+        for value in values:
+            self.send("GuiUpdateMessage", uuid=self.fields[field], updates={"value": value})
+            time.sleep(every)
 
     def drag(self, pose):
         """Takes the handle to `pose`, T_base_tool, and lets go."""
@@ -70,6 +77,8 @@ class Hand(Browser):
         if kind == "GuiButtonGroupMessage":
             label, uuid = message["props"]["label"], message["uuid"]
             self.rows[label], self._labels[uuid] = uuid, label
+        elif kind in ("GuiSliderMessage", "GuiNumberMessage", "GuiVector3Message"):
+            self.fields[message["props"]["label"]] = message["uuid"]
         elif kind == "GuiRemoveMessage":
             label = self._labels.pop(message["uuid"], None)
             if self.rows.get(label) == message["uuid"]:

@@ -32,7 +32,7 @@ class _View:
             low, high = np.ceil(low * 10 - _HAIR) / 10, np.floor(high * 10 + _HAIR) / 10
             value = float(np.clip(round(float(to_screen(pendant.q[k])), 1), low, high))
             slider = gui.add_slider(t("move.joint", number=k + 1), float(low), float(high), 0.1, value)
-            pendant.changed(slider, f"joint{k}", lambda v, k=k: self._joint(k, v))
+            pendant.entered(slider, f"joint{k}", lambda v, k=k: self._joint(k, v), slider=True)
             self._sliders.append(slider)
         pendant.clicked(gui.add_button(t("move.home")), self._home)
         self._readout = gui.add_html("")
@@ -72,7 +72,7 @@ class _View:
         pendant = self._pendant
         now = time.monotonic()
         for k, (slider, joint) in enumerate(zip(self._sliders, pendant.model.joints, strict=True)):
-            if now - self._touched[k] > _OWN:
+            if now - self._touched[k] > _OWN and not pendant.typing(f"joint{k}"):
                 value = mm(pendant.q[k]) if joint.prismatic else deg(pendant.q[k])
                 shown = float(np.clip(round(float(value), 1), slider.min, slider.max))
                 if slider.value != shown:  # setting it wakes the event loop, changed or not

@@ -13,6 +13,7 @@ under the screen's own key, `[compare]` with at least `title`. What it may use o
     pendant.say(level, text)  the message line: "info", "good", "warning", "error"
     pendant.clicked(button, job)         job runs on the session's worker when the button is clicked
     pendant.changed(widget, slot, job)   the same for inputs; only the newest value counts
+    pendant.entered(widget, slot, job, slider=False)   for numbers and texts that are typed: counts once it rests
     pendant.do(action)        an action on the session, then every screen is refreshed (worker thread only)
     pendant.go(q, then=None)  the arm moves to q, visibly (worker thread only)
     pendant.place(q)          the arm stands at q at once (worker thread only)

@@ -55,7 +55,7 @@ class _View:
             self._every = gui.add_number(t("base.every"), 10, min=2, max=45, step=1)
             with gui.add_folder(t("base.by_hand"), expand_by_default=False):
                 self._angle = gui.add_slider(t("base.angle"), -170, 170, 1, 0)
-                pendant.changed(self._angle, "base.angle", self._turn)
+                pendant.entered(self._angle, "base.angle", self._turn, slider=True)
                 hand = gui.add_button_group(
                     t("base.point"), (t("base.measure"), t("base.leave"), t("base.undo"))
                 )

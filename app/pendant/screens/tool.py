@@ -61,7 +61,7 @@ class _View:
         pendant.changed(self._mode, "mode", self._choose_mode)
         low, high = mode.least_touches, mode.most_touches
         self._touches = gui.add_number(t("tool.touches"), state.touches, min=low, max=high, step=1)
-        pendant.changed(self._touches, "touches", self._choose_touches)
+        pendant.entered(self._touches, "touches", self._choose_touches)
         named = {
             "joint": "tool.method_joint",
             "pairwise": "tool.method_pairwise",
@@ -228,7 +228,8 @@ class _View:
         mode = mode_named(state.mode)
         self._mode.value = next(title for title, key in self._modes.items() if key == mode.key)
         self._touches.min, self._touches.max = mode.least_touches, mode.most_touches
-        self._touches.value = state.touches
+        if not self.pendant.typing("touches"):
+            self._touches.value = state.touches
         self._method.value = self._method_label(state.method)
         if state.steps != self._steps:
             for row in self._rows:

@@ -33,7 +33,7 @@ class _View:
                 running.begun.trainee if running is not None else "" if last == session else last
             )
         self._name = gui.add_text(t("training.name"), pendant.trainee, hint=t("training.name_hint"))
-        pendant.changed(self._name, "trainee", self._named)
+        pendant.entered(self._name, "trainee", self._named)
         self._list: Any = gui.add_dropdown(t("training.exercise"), ("-",))
         pendant.changed(self._list, "exercise", lambda _: self._choose())
         self._card = gui.add_html("")

@@ -37,8 +37,8 @@ class UserFrame:
         with self._folder:
             self._place = gui.add_vector3(t("jog.user_place"), (0.0, 0.0, 0.0), step=0.1)
             self._turn = gui.add_vector3(t("jog.user_turn"), (0.0, 0.0, 0.0), step=0.1)
-            pendant.changed(self._place, "user_place", lambda _: self._typed())
-            pendant.changed(self._turn, "user_turn", lambda _: self._typed())
+            pendant.entered(self._place, "user_place", lambda _: self._typed())
+            pendant.entered(self._turn, "user_turn", lambda _: self._typed())
             teach = {t(f"jog.user_{key}"): key for key in _POINTS}
             group = gui.add_button_group(t("jog.user_teach"), tuple(teach), hint=t("jog.user_hint"))
             pendant.chosen(group, lambda label: self._teach(teach[label], label))
