@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import lru_cache
 
+import numpy as np
+
 from app.kinematics import RobotModel
 from app.pendant.scene.cell import cell_obstacles
 from app.pendant.scene.held_tool import held_shapes
@@ -16,6 +18,12 @@ from app.simulation.world import World
 def guard_of(world: World) -> Guard:
     """A guard of its own for one pendant; the bodies are shared by all who work in such a cell."""
     return Guard(world, _bodies(world.robot, _Cell(world)))
+
+
+def hit(world: World, q: np.ndarray) -> Stop | None:
+    """What is nearer than any way may bring the arm when it stands at q (n,); from any thread."""
+    pair = next(iter(_bodies(world.robot, _Cell(world)).touching(q)), None)
+    return None if pair is None else Stop("hit", q, *pair)
 
 
 class _Cell:

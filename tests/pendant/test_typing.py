@@ -37,7 +37,8 @@ def seat(tmp_path):
     hand = Hand(server.port)
     until(lambda: server.pendants and hasattr(server.pendants[0], "page"), "the page")
     pendant = server.pendants[0]
-    assert pendant.worker.idle() and hand.wait_for(lambda: "Axis 1" in hand.fields)
+    assert pendant.worker.idle()
+    assert hand.wait_for(lambda: "Axis 1" in hand.fields and "○ Touch 1" in hand.rows)
     show, shown = pendant.show, []
 
     def watched(q):

@@ -7,11 +7,14 @@ import numpy as np
 
 from app.calibration.modes import mode
 from app.calibration.next_touch import predicted_error, propose
+from app.kinematics import load_robot
 from app.pendant.aids import Aids
-from app.pendant.screens._tool import next_touch
-from app.pendant.screens._tool.hand import collisions
+from app.pendant.guarding import hit
+from app.pendant.screens._tool import next_touch, verifying
 from app.session.actions import Accept, Calculate, Cancel, ChooseMode, Enter, Move, Record
 from app.session.state import as_tuple
+from app.simulation.guard import Stop
+from app.simulation.world import default_world
 from app.units import from_mm, mm
 from tests.pendant.test_server import pytestmark, until  # noqa: F401  (same worker)
 from tests.pendant.tool.conftest import plain
@@ -41,7 +44,7 @@ def test_the_ghost_is_reachable_free_of_collision_and_at_the_spike_and_the_arm_g
     touches(desk, 2)
     found, pendant = proposal(desk), desk.pendant
     assert pendant.model.within_limits(found.q)
-    assert not collisions(pendant.model, pendant.world).check(found.q)
+    assert hit(pendant.world, found.q) is None
     assert pendant.world.distance(found.q) < AT_SPIKE
     assert pendant.stage.next_arm.visible and not desk.view._next_touch._go.disabled
     desk.does(desk.view._next_touch.go)
@@ -113,6 +116,25 @@ def test_verifying_draws_the_trace_says_the_wander_and_gives_way_when_the_arm_is
     assert f"{mm(found.wander):.2f} mm" in plain(desk.view._verifying._text.content)
     desk.does(lambda: desk.pendant.place(desk.pendant.q + 0.1))
     assert not stage.trace.drawn and stage.handle.visible
+
+
+def test_a_pose_in_the_fence_is_neither_proposed_nor_turned_at():
+    world = default_world(load_robot("ur10e"))
+    assert hit(world, world.robot.home) is None
+    stretched = (np.array([turn, -0.6, 0.1, 0.0, 0.0, 0.0]) for turn in np.linspace(-np.pi, np.pi, 30))
+    assert any(stop and stop.b == "fence" for q in stretched for stop in [hit(world, q)])
+
+
+def test_a_turn_that_would_hit_something_is_not_made_and_what_is_said(desk, monkeypatch):
+    desk.fresh(robot="ur10e").does(lambda: desk.pendant.do(ChooseMode("touch", 4)))
+    touches(desk, 4)
+    desk.does(lambda: desk.pendant.do(Calculate()))
+    desk.does(lambda: desk.pendant.do(Accept("torch")))
+    stands = desk.pendant.q.copy()
+    monkeypatch.setattr(verifying, "hit", lambda world, q: Stop("hit", q, "forearm", "fence"))
+    desk.does(desk.view._verifying.run)
+    until(lambda: "the forearm would hit the fence" in desk.pendant.log[-1][2], "the refusal")
+    assert desk.view._verifying.found is None and np.array_equal(desk.pendant.q, stands)
 
 
 def test_a_typed_tool_is_verified_without_a_prediction(desk):

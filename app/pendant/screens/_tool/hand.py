@@ -1,4 +1,4 @@
-"""What the program does for a careful hand: touch and stroke; and what may be hit on the way."""
+"""What the program does for a careful hand: touch and stroke."""
 
 from __future__ import annotations
 
@@ -7,10 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from app.calibration.captures import Capture, Step, of_role
-from app.kinematics import CollisionWorld, RobotModel, solve_ik
-from app.pendant.scene.cell import cell_shapes
-from app.pendant.scene.held_tool import held_shapes
-from app.simulation.world import World
+from app.kinematics import solve_ik
 from app.units import from_mm, mm
 
 if TYPE_CHECKING:
@@ -45,11 +42,6 @@ def help_along(pendant: Pendant, title: str) -> None:
         pendant.say("warning", pendant.t("message.not_reached", reason=pendant.why(found)))
         return
     pendant.go(found.q, lambda: pendant.say("info", words))
-
-
-def collisions(robot: RobotModel, world: World) -> CollisionWorld:
-    """The arm, its tool and the cell, for asking what would be hit; a fresh one, so any thread may ask."""
-    return CollisionWorld(robot, tool_shapes=held_shapes(robot), obstacles=cell_shapes(world))
 
 
 def joints_of(pendant: Pendant, capture: Capture) -> np.ndarray | None:

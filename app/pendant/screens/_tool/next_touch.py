@@ -12,7 +12,7 @@ from app.calibration.next_touch.prediction import USUAL_NOISE
 from app.calibration.wording import Phrase
 from app.errors import DegenerateGeometryError
 from app.pendant import html
-from app.pendant.screens._tool.hand import collisions
+from app.pendant.guarding import hit
 from app.pendant.screens._tool.words import Words
 from app.session import SessionState
 from app.simulation.world import default_tool
@@ -97,7 +97,7 @@ class NextTouch:
                     reference=None if len(made) else robot.forward(robot.home).rotation,
                     robot=robot,
                     q_near=q,
-                    collides=collisions(robot, world).check,
+                    collides=lambda q: hit(world, q) is not None,
                 )
             except DegenerateGeometryError as error:
                 return error

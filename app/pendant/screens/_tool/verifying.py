@@ -8,8 +8,9 @@ import numpy as np
 
 from app.calibration.verify import Verification, verify
 from app.pendant import html
+from app.pendant.guarding import hit, words
 from app.pendant.scene.trace import trace_factor
-from app.pendant.screens._tool.hand import collisions, joints_of
+from app.pendant.screens._tool.hand import joints_of
 from app.session import SessionState
 from app.session.state import accepted
 from app.units import mm
@@ -48,28 +49,37 @@ class Verifying:
         def tip(flange, q) -> np.ndarray:
             return world.tip(q).position
 
-        def work() -> Verification | None:
-            hits = collisions(model, world).check
+        def work() -> tuple[Verification | None, str]:
             best: Verification | None = None
+            why = ""
             for start in [*starts, np.array(pendant.q)]:
                 found = verify(solved.result, model.forward(start), tip, robot=model, q_start=start)
-                free = found.joints is not None and not any(hits(q) for q in found.joints[::_EVERY])
-                if not found.stopped and free:
-                    return found
-                if best is None or len(found.trace) > len(best.trace):
+                joints = [] if found.joints is None else [*found.joints[::_EVERY], *found.joints[-1:]]
+                stop = next((s for q in joints if (s := hit(world, q)) is not None), None)
+                if stop is not None:
+                    why = why or words(stop, pendant.t, pendant.language)
+                elif not joints:
+                    why = why or (pendant.why(found.hindered) if found.hindered else "")
+                elif not found.stopped:
+                    return found, ""
+                elif best is None or len(found.trace) > len(best.trace):
                     best = found
-            return best
+            return best, why
 
-        def done(found: Verification | None) -> None:
-            if found is None or found.joints is None or not len(found.joints):
-                reason = pendant.why(found.hindered) if found is not None and found.hindered else ""
-                pendant.say("warning", pendant.t("message.not_reached", reason=reason))
+        def done(outcome: tuple[Verification | None, str]) -> None:
+            found, why = outcome
+            if found is None or found.joints is None:
+                pendant.say("warning", pendant.t("message.not_reached", reason=why))
                 return
             self.found, self._of, self._done = found, solved, False
             self._text.visible = False
             pendant.stage.view("close")
             stops = [*found.joints[::_EVERY], found.joints[-1]]
-            pendant.tour(stops, lambda number: self._arrived(found, number), rest=0.0, checked=False)
+
+            def turn() -> None:
+                pendant.tour(stops, lambda number: self._arrived(found, number), rest=0.0, checked=False)
+
+            pendant.go(stops[0], turn)  # the way there is looked at, the turn itself has been
 
         pendant.background(work, done)
 
