@@ -2,6 +2,7 @@
 
 import pytest
 
+from app.pendant import motion
 from app.pendant.server import PendantServer
 from app.session import Store
 from benchmarks._browser import Browser
@@ -24,3 +25,10 @@ def open_pendant(tmp_path):
     for server, browser in opened:
         browser.close()
         server.stop()
+
+
+@pytest.fixture
+def brisk(monkeypatch):
+    """Shown motions take no longer than they have to be seen: a turn about a tool point has 45 of them."""
+    monkeypatch.setattr(motion, "SHORTEST", 0.03)
+    monkeypatch.setattr(motion, "SPEED", 8.0)

@@ -95,7 +95,7 @@ def hidden_numbers(chosen):
 
 
 @pytest.fixture
-def served(tmp_path):
+def served(tmp_path, brisk):
     server = PendantServer(Store(tmp_path), port=0, robot="jby50")
     tap = Tap(server.port)
     until(lambda: server.pendants and hasattr(server.pendants[0], "page"), "the pendant")
@@ -146,9 +146,9 @@ def work(pendant, chosen):
     if chosen.goal == "tool":
         done(pendant, lambda: pendant.do(Calculate()))
         done(pendant, lambda: pendant.do(Accept()))
-        view = next(v for v in pendant.page.views if hasattr(v, "_verifying"))
-        done(pendant, view._verifying.run)
-        until(lambda: view._verifying.found is not None, "the turn")
+        view = next(v for v in pendant.page.views if hasattr(v, "deciding"))
+        done(pendant, view.deciding.verifying.run)
+        until(lambda: view.deciding.verifying.found is not None, "the turn")
         done(pendant)
     aim = pendant.world.hand(pendant.q)
     above = Pose.of(aim.rotation, aim.position + np.array([0.0, 0.0, 0.03]))

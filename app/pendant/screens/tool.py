@@ -10,8 +10,9 @@ from app.calibration.tool import METHODS
 from app.calibration.wording import name_of
 from app.errors import TeachframeError
 from app.pendant import html
+from app.pendant.screens._tool.deciding import Deciding
 from app.pendant.screens._tool.direct import DirectEntry
-from app.pendant.screens._tool.giving import send_frame, send_report, take_frame, titles
+from app.pendant.screens._tool.giving import take_frame
 from app.pendant.screens._tool.hand import (
     AXES,
     STROKE,
@@ -22,14 +23,13 @@ from app.pendant.screens._tool.hand import (
 )
 from app.pendant.screens._tool.next_touch import NextTouch
 from app.pendant.screens._tool.paper import calculate, play_paper_table, play_upload
-from app.pendant.screens._tool.result import light_html, named, result_html
+from app.pendant.screens._tool.result import named
 from app.pendant.screens._tool.rows import Row
-from app.pendant.screens._tool.verifying import Verifying
 from app.pendant.screens._tool.words import Words
 from app.pendant.texts import error_text
 from app.session import SessionState
-from app.session.actions import Accept, Cancel, ChooseMethod, ChooseMode, Delete, Record, Redo, ReRecord, Undo
-from app.session.state import DIRECT, accepted, as_tuple, mode_named
+from app.session.actions import ChooseMethod, ChooseMode, Delete, Record, Redo, ReRecord, Undo
+from app.session.state import DIRECT, as_tuple, mode_named
 from app.units import mm
 
 if TYPE_CHECKING:
@@ -44,7 +44,7 @@ class _View:
         self._steps: tuple[Step, ...] = ()
         self._state: SessionState | None = None
         self._build_setup()
-        self._build_result()
+        self.deciding = Deciding(pendant)
         self._build_list()
 
     def _build_setup(self) -> None:
@@ -77,32 +77,6 @@ class _View:
         self._direct = DirectEntry(pendant, self._words)
         self._next_touch = NextTouch(pendant, self._words)
         self._refused = gui.add_html("", visible=False)
-
-    def _build_result(self) -> None:
-        pendant, gui, t = self.pendant, self.pendant.client.gui, self.pendant.t
-        self._result_folder = gui.add_folder(t("tool.result"), visible=False)
-        with self._result_folder:
-            self._light = gui.add_html("")
-            number = len(pendant.session.state.tools) + 1
-            self._name = gui.add_text(t("tool.name"), t("tool.first_name", number=number))
-            self._decide = gui.add_button_group(t("tool.decide"), (t("tool.accept"), t("tool.cancel")))
-            self._again = gui.add_button_group(
-                t("tool.then"), (t("tool.verify"), t("tool.again")), visible=False
-            )
-            self._verifying = Verifying(pendant)
-            self._result = gui.add_html("")
-            self._formats = titles()
-            self._format = gui.add_dropdown(t("tool.format"), tuple(self._formats))
-            give = gui.add_button_group(t("tool.give"), (t("tool.export"), t("tool.report")))
-        decide = {t("tool.accept"): self._accept, t("tool.cancel"): self._cancel}
-        pendant.chosen(self._decide, lambda label: decide[label]())
-        then = {t("tool.verify"): self._verifying.run, t("tool.again"): self._cancel}
-        pendant.chosen(self._again, lambda label: then[label]())
-        gives = {
-            t("tool.export"): lambda: send_frame(pendant, self._formats[self._format.value], self._tool_name),
-            t("tool.report"): lambda: send_report(pendant, self._tool_name),
-        }
-        pendant.chosen(give, lambda label: gives[label]())
 
     def _build_list(self) -> None:
         pendant, gui, t = self.pendant, self.pendant.client.gui, self.pendant.t
@@ -171,24 +145,6 @@ class _View:
             self._refused.visible = True
             raise
 
-    @property
-    def _tool_name(self) -> str:
-        state = self.pendant.session.state
-        return state.tool.name if state.tool is not None and accepted(state) else self._name.value
-
-    def _accept(self) -> None:
-        pendant = self.pendant
-        state = pendant.do(Accept(self._name.value))
-        if state.tool is not None:
-            pendant.stage.view("whole")
-            pendant.say("good", pendant.t("message.accepted", name=state.tool.name))
-
-    def _cancel(self) -> None:
-        self.pendant.do(Cancel())
-        self.pendant.stage.view("whole")
-        self._name.value = self.pendant.t("tool.first_name", number=len(self.pendant.session.state.tools) + 1)
-        self.pendant.say("info", self.pendant.t("message.cancelled"))
-
     def _undo(self) -> None:
         self.pendant.do(Undo())
         self.pendant.say("info", self.pendant.t("message.undone"))
@@ -242,8 +198,7 @@ class _View:
             ]
         for row in self._rows:
             row.refresh(state)
-        done, taken = state.result is not None, accepted(state)
-        self._result_folder.visible = done
+        done = state.result is not None
         for widget in (self._maker, self._mode, self._next, self._calculate):
             widget.visible = not done
         self._touches.visible = self._method.visible = not done and mode.most_touches > 0
@@ -252,22 +207,17 @@ class _View:
         self._assist.visible = not done and (
             (touched and self.pendant.aids.touch) or (step is not None and step.role in AXES)
         )
-        self._name.visible = self._decide.visible = not taken
-        self._again.visible = taken
         self._calculate.disabled = not state.captures and state.mode != DIRECT
         self._folder.visible = bool(state.steps)
-        for part in (self._direct, self._next_touch, self._verifying):
+        for part in (self._direct, self._next_touch, self.deciding):
             part.refresh(state)
-        if state.result is not None:
-            self._light.content = light_html(state.result, self.pendant.language)
-            self._result.content = result_html(self.pendant, state.result)
-        else:
+        if not done:
             self._instruct(step, state)
 
     def numbers(self) -> None:
         """The arm moved."""
         self._next_touch.numbers()
-        self._verifying.numbers()
+        self.deciding.numbers()
 
     def _instruct(self, step: Step | None, state: SessionState) -> None:
         t = self.pendant.t

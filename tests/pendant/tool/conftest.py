@@ -55,7 +55,7 @@ class Desk:
 
     def shown(self):
         """What a person reads about a result or a refusal, without markup."""
-        parts = (self.view._light, self.view._result, self.view._refused)
+        parts = (self.view.deciding.light, self.view.deciding.page, self.view._refused)
         return plain(" ".join(part.content for part in parts if part.visible))
 
 

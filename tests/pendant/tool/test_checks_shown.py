@@ -227,7 +227,7 @@ def test_what_goes_wrong_is_shown_by_name_with_its_advice_in_both_languages(case
     for word in words:
         assert word in said, said
     if desk.state.result is not None:
-        assert re.search('data-colour="(yellow|red)"', desk.view._light.content)
+        assert re.search('data-colour="(yellow|red)"', desk.view.deciding.light.content)
 
     load_and_calculate(desk.fresh("zh", robot="ur10e"), path)
     said = desk.shown()

@@ -101,19 +101,19 @@ def test_an_exercise_without_the_aid_shows_no_ghost(desk):
     desk.does(lambda: desk.pendant.allow(Aids()))
 
 
-def test_verifying_draws_the_trace_says_the_wander_and_gives_way_when_the_arm_is_moved(desk):
+def test_verifying_draws_the_trace_says_the_wander_and_gives_way_when_the_arm_is_moved(desk, brisk):
     desk.fresh(robot="ur10e").does(lambda: desk.pendant.do(ChooseMode("touch", 4)))
     touches(desk, 4)
     desk.does(lambda: desk.pendant.do(Calculate()))
     desk.does(lambda: desk.pendant.do(Accept("torch")))
-    desk.does(desk.view._verifying.run)
-    until(lambda: desk.view._verifying._done, "the turn")
+    desk.does(desk.view.deciding.verifying.run)
+    until(lambda: desk.view.deciding.verifying._done, "the turn")
     assert desk.pendant.worker.idle(30.0)
-    found, stage = desk.view._verifying.found, desk.pendant.stage
+    found, stage = desk.view.deciding.verifying.found, desk.pendant.stage
     assert stage.trace.drawn and not stage.handle.visible
     off = np.linalg.norm(desk.state.result.result.tool_point - desk.pendant.world.T_flange_tool_true.position)
     assert 0.0 < found.wander <= 2.0 * np.sin(np.radians(45.0) / 2) * off + from_mm(0.01)
-    assert f"{mm(found.wander):.2f} mm" in plain(desk.view._verifying._text.content)
+    assert f"{mm(found.wander):.2f} mm" in plain(desk.view.deciding.verifying._text.content)
     desk.does(lambda: desk.pendant.place(desk.pendant.q + 0.1))
     assert not stage.trace.drawn and stage.handle.visible
 
@@ -132,22 +132,22 @@ def test_a_turn_that_would_hit_something_is_not_made_and_what_is_said(desk, monk
     desk.does(lambda: desk.pendant.do(Accept("torch")))
     stands = desk.pendant.q.copy()
     monkeypatch.setattr(verifying, "hit", lambda world, q: Stop("hit", q, "forearm", "fence"))
-    desk.does(desk.view._verifying.run)
+    desk.does(desk.view.deciding.verifying.run)
     until(lambda: "the forearm would hit the fence" in desk.pendant.log[-1][2], "the refusal")
-    assert desk.view._verifying.found is None and np.array_equal(desk.pendant.q, stands)
+    assert desk.view.deciding.verifying.found is None and np.array_equal(desk.pendant.q, stands)
 
 
-def test_a_typed_tool_is_verified_without_a_prediction(desk):
+def test_a_typed_tool_is_verified_without_a_prediction(desk, brisk):
     desk.fresh(robot="ur10e").does(lambda: desk.pendant.do(ChooseMode("direct")))
     true = desk.pendant.world.T_flange_tool_true
     wrong = as_tuple(true.position + np.array([0.0, 0.0, from_mm(3.0)]))
     desk.does(lambda: desk.pendant.do(Enter(wrong, as_tuple(true.quaternion), "quaternion")))
     desk.does(lambda: desk.pendant.do(Calculate()))
     desk.does(lambda: desk.pendant.do(Accept("drawn")))
-    desk.does(desk.view._verifying.run)
-    until(lambda: desk.view._verifying._done, "the turn")
-    said = plain(desk.view._verifying._text.content)
+    desk.does(desk.view.deciding.verifying.run)
+    until(lambda: desk.view.deciding.verifying._done, "the turn")
+    said = plain(desk.view.deciding.verifying._text.content)
     assert "wandered" in said and "predicted (" not in said and "nan" not in said
-    assert desk.view._verifying.found.wander > from_mm(1.0)
+    assert desk.view.deciding.verifying.found.wander > from_mm(1.0)
     desk.does(lambda: desk.pendant.do(Cancel()))
     assert mode("direct").default_touches == 0 and not desk.pendant.stage.trace.drawn

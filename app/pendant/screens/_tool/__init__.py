@@ -4,6 +4,7 @@ rows.py        the list: a row a point
 hand.py        what the program does for a careful hand: touch, stroke
 next_touch.py  before a capture: what it would bring, and the best one as a ghost arm
 direct.py      the fields of direct entry
+deciding.py    the result: accepted or cancelled, exported
 result.py      a calibration as a piece of page
 verifying.py   the turn about the accepted tool point, with the trace of the true tip
 giving.py      export, report, and tool frames from files
