@@ -88,12 +88,19 @@ class Chain:
             last = j == n
             placement_r = self.flange_rotation if last else self.rotations[j]
             placement_p = self.flange_translation if last else self.translations[j]
+            if shifts is not None and shifts.ndim == 2:  # the same in every pose
+                placement_p, shift = placement_p + placement_r @ shifts[j], None
+            else:
+                shift = None if shifts is None else shifts[:, j, :, None]
+            turn = None if turns is None else turns[..., j, :, :]
+            if turn is not None and turn.ndim == 2 and shift is None:
+                placement_r, turn = placement_r @ turn, None
             position = position + _times(rotation, placement_p)
             rotation = _times(rotation, placement_r)
-            if shifts is not None:
-                position = position + (rotation @ shifts[..., j, :, None])[..., 0]
-            if turns is not None:
-                rotation = rotation @ turns[..., j, :, :]
+            if shift is not None:
+                position = position + (rotation @ shift)[..., 0]
+            if turn is not None:
+                rotation = rotation @ turn
             if last:
                 break
             joint_rotations[:, j], joint_positions[:, j] = rotation, position
@@ -101,11 +108,8 @@ class Chain:
             axes[:, j] = _times(rotation, axis)
             if self.prismatic[j]:
                 position = position + axes[:, j] * q[:, j, None]
-            else:  # R exp(q [axis]x), with Rodrigues' formula multiplied out
-                once = _times(rotation, skew(axis))
-                twice = _times(once, skew(axis))
-                s, c = np.sin(q[:, j])[:, None, None], np.cos(q[:, j])[:, None, None]
-                rotation = rotation + s * once + (1.0 - c) * twice
+            else:
+                rotation = _turned(rotation, axis, np.cos(q[:, j]), np.sin(q[:, j]))
         return Frames(joint_rotations, joint_positions, axes, rotation, position)
 
     def jacobian_columns(self, frames: Frames, points: np.ndarray) -> np.ndarray:
@@ -121,6 +125,21 @@ class Chain:
         turning = np.cross(frames.axes, arm)
         columns = np.where(self.prismatic[None, :, None], frames.axes, turning)
         return np.swapaxes(columns, 1, 2)
+
+
+def _turned(rotation: np.ndarray, axis: np.ndarray, cosine: np.ndarray, sine: np.ndarray) -> np.ndarray:
+    """(m, 3, 3) R exp(q [axis]x) for (m,) angles."""
+    k = int(np.argmax(np.abs(axis)))
+    if abs(axis[k]) == 1.0:  # the columns across the axis turn into each other
+        c, s = cosine[:, None], (axis[k] * sine)[:, None]
+        a, b = rotation[:, :, (k + 1) % 3], rotation[:, :, (k + 2) % 3]
+        out = rotation.copy()
+        out[:, :, (k + 1) % 3] = c * a + s * b
+        out[:, :, (k + 2) % 3] = c * b - s * a
+        return out
+    once = _times(rotation, skew(axis))  # Rodrigues' formula multiplied out
+    twice = _times(once, skew(axis))
+    return rotation + sine[:, None, None] * once + (1.0 - cosine)[:, None, None] * twice
 
 
 def _times(matrices: np.ndarray, fixed: np.ndarray) -> np.ndarray:

@@ -51,6 +51,8 @@ class Cell:
 
 
 def _added(array: np.ndarray, link: int, amount: np.ndarray) -> np.ndarray:
+    if not np.any(amount):
+        return array
     amount = np.atleast_2d(amount)
     out = np.repeat(array, len(amount), axis=0) if len(amount) > len(array) else array.copy()
     out[:, link] += amount
@@ -98,22 +100,17 @@ def pose(situation: Situation, cell: Cell, tool: np.ndarray) -> Posed:
     chain = situation.chain
     moved = bool(np.any(cell.shifts) or np.any(cell.turns))
     frames = chain.frames(cell.q, *_placements(cell)) if moved else chain.frames(cell.q)
-    tool_turn = exp_so3(cell.tool[:, 3:])
-    local = np.einsum("aij,arj->ari", tool_turn, np.atleast_3d(tool) if tool.ndim == 3 else tool[None])
-    local = local + cell.tool[:, None, :3]
-    points = frames.flange_positions[:, None] + np.einsum(
-        "mij,mrj->mri", frames.flange_rotations, np.broadcast_to(local, (len(cell.q), *local.shape[1:]))
-    )
-    hand = frames.flange_rotations @ tool_turn
-    base_rotation = exp_so3(cell.base[:, 3:])
-    points = (
-        np.einsum("aij,mrj->mri", base_rotation, points)
-        if len(base_rotation) == 1
-        else np.einsum("mij,mrj->mri", base_rotation, points)
-    )
-    points = points + cell.base[:, None, :3]
+    tool_turn, base_rotation = exp_so3(cell.tool[:, 3:]), exp_so3(cell.base[:, 3:])
+    local = (tool if tool.ndim == 3 else tool[None]) @ np.swapaxes(tool_turn, 1, 2) + cell.tool[:, None, :3]
+    points = _turned(frames.flange_rotations, local) + frames.flange_positions[:, None]
+    points = _turned(base_rotation, points) + cell.base[:, None, :3]
     points = points - cell.press[:, None, None] * frames.flange_rotations[:, None, :, 2]
-    return Posed(frames, points, base_rotation @ hand, base_rotation)
+    return Posed(frames, points, base_rotation @ (frames.flange_rotations @ tool_turn), base_rotation)
+
+
+def _turned(rotations: np.ndarray, points: np.ndarray) -> np.ndarray:
+    """(m, r, 3) points (1 or m, r, 3) turned by (1 or m, 3, 3)."""
+    return points @ np.swapaxes(rotations, 1, 2)
 
 
 def _placements(cell: Cell) -> tuple[np.ndarray, np.ndarray]:

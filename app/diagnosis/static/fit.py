@@ -17,6 +17,9 @@ from app.diagnosis.static.setup import Setup, moved, residual
 from app.diagnosis.static.situation import Situation
 
 _TINY = 1e-12  # relative length of a column below which it is nothing
+NOTHING = (
+    1e-13  # of the sum of squares: a step that promises less is none, a hundred-thousandth of a sigma at most
+)
 _STIFF = 1e-9  # relative eigenvalue of the scaled Hessian below which a direction is left alone
 
 
@@ -130,6 +133,9 @@ def fit(
     converged = False
     for _ in range(iterations):
         step = solve(now.jacobian, now.white)
+        if now.white @ (now.jacobian @ step) <= NOTHING * now.rss:
+            converged = True
+            break
         scale, better = 1.0, None
         for _ in range(6):
             trial = _stepped(now, scale * step)
@@ -153,10 +159,16 @@ def solve(jacobian: np.ndarray, white: np.ndarray) -> np.ndarray:
     scale = np.sqrt(np.einsum("np,np->p", jacobian, jacobian))
     scale = np.where(scale > _TINY * max(scale.max(initial=0.0), 1e-300), scale, np.inf)
     scaled = jacobian / scale
-    values, vectors = np.linalg.eigh(scaled.T @ scaled)
-    keep = values > _STIFF
-    half = vectors[:, keep]
-    return (half @ ((half.T @ (scaled.T @ white)) / values[keep])) / scale
+    gram, right = scaled.T @ scaled, scaled.T @ white
+    stiff = gram.copy()
+    stiff[np.diag_indices_from(stiff)] -= _STIFF
+    try:
+        np.linalg.cholesky(stiff)  # every eigenvalue is above
+    except np.linalg.LinAlgError:
+        values, vectors = np.linalg.eigh(gram)
+        half = vectors[:, values > _STIFF]
+        return (half @ ((half.T @ right) / values[values > _STIFF])) / scale
+    return np.linalg.solve(gram, right) / scale
 
 
 def _state(recording, setup, terms, weights, held) -> Fitted:
@@ -202,15 +214,15 @@ def _stepped(now: Fitted, step: np.ndarray) -> Fitted:
     nuisance = now.slices[0].start if now.slices else now.jacobian.shape[1]
     setup = moved(now.setup, now.recording, step[:nuisance])
     terms = tuple(
-        replace(term, values=_bounded(term, now.recording.situation, term.values + step[where]))
-        for term, where in zip(now.terms, now.slices, strict=True)
+        Term(t.effect, t.place, _bounded(t, now.recording.situation, t.values + step[at]), t.tacit, t.spread)
+        for t, at in zip(now.terms, now.slices, strict=True)
     )
     return _state(now.recording, setup, terms, now.weights, now.held)
 
 
 def _bounded(term: Term, situation: Situation, values: np.ndarray) -> np.ndarray:
     quantities = term.effect.quantities(situation, term.place)
-    return np.clip(values, [q.lower for q in quantities], [q.upper for q in quantities])
+    return np.array([min(max(v, q.lower), q.upper) for v, q in zip(values.tolist(), quantities, strict=True)])
 
 
 def covariance(fitted: Fitted) -> np.ndarray:

@@ -14,6 +14,7 @@ from app.diagnosis.static.cell import Cell, Posed
 from app.diagnosis.static.recording import StaticRecording
 from app.diagnosis.static.setup import Setup, instrument_points
 from app.diagnosis.static.situation import Situation
+from app.geometry import skew
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,46 +101,58 @@ def sensitivity(
     points = posed.points  # (m, r, 3) in base, the base's own displacement included (small: lever arms only)
     r = points.shape[1]
 
-    axes = np.swapaxes(frames.axes, 1, 2)  # (m, 3, n)
-    turning = ~chain.prismatic
-    arms = points[:, :, None] - frames.joint_positions[:, None]  # (m, r, n, 3)
-    swing = np.swapaxes(np.cross(frames.axes[:, None], arms), 2, 3)  # (m, r, 3, n)
-    slide = np.broadcast_to(axes[:, None], swing.shape)
-    joint = carry(np.where(turning, swing, slide), np.where(turning, axes, 0.0))
+    # All columns side by side, carried at once; turns matter only where orientations were measured.
+    sizes = {"joint": n, "base": 6, "tool": 6, "link": 4 * n, "stretch": n, "press": 1}
+    ends = np.cumsum([0, *sizes.values()]).tolist()
+    at = {name: slice(a, b) for name, a, b in zip(sizes, ends, ends[1:], strict=False)}
+    moves, turns = np.zeros((m, r, 3, ends[-1])), np.zeros((m, 3, ends[-1]))
 
-    eye = np.eye(3)
-    unit = np.broadcast_to(eye, (m, 3, 3))
-    none = np.zeros((m, 3, 3))
-    base = carry(
-        np.concatenate([np.broadcast_to(eye, (m, r, 3, 3)), _cross_columns(unit, points)], axis=3),
-        np.concatenate([none, unit], axis=2),
-    )
+    axes = np.moveaxis(frames.axes, 2, 0)  # (3, m, n)
+    _crossed(axes[:, :, None], _arms(points, frames.joint_positions), moves[..., at["joint"]])
+    turns[:, :, at["joint"]] = np.swapaxes(frames.axes, 1, 2)
+    for j in np.flatnonzero(chain.prismatic):
+        moves[..., j], turns[:, :, j] = frames.axes[:, None, j], 0.0
+
+    moves[..., n : n + 3] = turns[:, :, n + 3 : n + 6] = np.eye(3)
+    moves[..., n + 3 : n + 6] = -skew(points)  # columns: unit vectors x point
     hand = frames.flange_rotations  # columns: flange axes in base
     lever = points - frames.flange_positions[:, None]
-    tool = carry(
-        np.concatenate([np.broadcast_to(hand[:, None], (m, r, 3, 3)), _cross_columns(hand, lever)], axis=3),
-        np.concatenate([none, hand], axis=2),
-    )
+    moves[..., n + 6 : n + 9] = hand[:, None]
+    turns[:, :, n + 9 : n + 12] = hand
+    hands = np.moveaxis(hand, 1, 0)  # (3, m, columns)
+    _crossed(hands[:, :, None], np.moveaxis(lever, 2, 0)[..., None], moves[..., n + 9 : n + 12])
 
     next_r = np.concatenate([frames.joint_rotations[:, 1:], frames.flange_rotations[:, None]], axis=1)
     next_p = np.concatenate([frames.joint_positions[:, 1:], frames.flange_positions[:, None]], axis=1)
-    directions = np.einsum("mnij,naj->mnai", next_r, situation.links.vectors)  # (m, n, 4, 3)
-    reach = points[:, :, None] - next_p[:, None]  # (m, r, n, 3)
-    shift = np.broadcast_to(directions[:, None, :, :2], (m, r, n, 2, 3))
-    turn = np.cross(directions[:, None, :, 2:], reach[:, :, :, None])  # (m, r, n, 2, 3)
-    moves = np.concatenate([shift, turn], axis=3).reshape(m, r, n * 4, 3)
-    turns = np.concatenate([np.zeros((m, n, 2, 3)), directions[:, :, 2:]], axis=2).reshape(m, n * 4, 3)
-    link = carry(np.swapaxes(moves, 2, 3), np.swapaxes(turns, 1, 2)).reshape(m, -1, n, 4)
-    vectors = np.einsum("mnij,nj->min", next_r, situation.links.lengths)  # (m, 3, n)
-    stretch = carry(np.broadcast_to(vectors[:, None], (m, r, 3, n)), None)
-    press = carry(np.broadcast_to(-hand[:, None, :, 2:], (m, r, 3, 1)), None)[:, :, 0]
+    along = np.concatenate([situation.links.vectors, situation.links.lengths[:, None]], axis=1)  # (n, 5, 3)
+    tall = np.moveaxis(next_r, 1, 0).reshape(n, m * 3, 3) @ np.swapaxes(along, 1, 2)  # link by link
+    directions = tall.reshape(n, m, 3, 5).transpose(2, 1, 0, 3)  # (3, m, n, 5)
+    link = moves[..., at["link"]].reshape(m, r, 3, n, 4)
+    link[..., :2] = directions[..., :2].transpose(1, 0, 2, 3)[:, None]
+    reach = _arms(points, next_p)[..., None]
+    _crossed(directions[:, :, None, :, 2:4], reach, link[..., 2:])
+    moves[..., at["link"]] = link.reshape(m, r, 3, 4 * n)
+    turning = turns[:, :, at["link"]].reshape(m, 3, n, 4)
+    turning[..., 2:] = directions[..., 2:4].transpose(1, 0, 2, 3)
+    turns[:, :, at["link"]] = turning.reshape(m, 3, 4 * n)
+    moves[..., at["stretch"]] = directions[..., 4].transpose(1, 0, 2)[:, None]
+    moves[..., -1] = -hand[:, None, :, 2]
+
+    every = carry(moves, turns)
     return Sensitivity(
-        situation, weights, joint, base, tool, link, stretch,
-        carry.measured(carry.points), carry.measured(carry.beam), press,
+        situation, weights, every[:, :, at["joint"]], every[:, :, at["base"]], every[:, :, at["tool"]],
+        every[:, :, at["link"]].reshape(m, -1, n, 4), every[:, :, at["stretch"]],
+        carry.measured(carry.points), carry.measured(carry.beam), every[:, :, -1],
     )  # fmt: skip
 
 
-def _cross_columns(directions: np.ndarray, arms: np.ndarray) -> np.ndarray:
-    """Columns direction_c x arm; (m, 3, c) and (m, r, 3) -> (m, r, 3, c)."""
-    crossed = np.cross(np.swapaxes(directions, 1, 2)[:, None], arms[:, :, None])  # (m, r, c, 3)
-    return np.swapaxes(crossed, 2, 3)
+def _arms(points: np.ndarray, origins: np.ndarray) -> np.ndarray:
+    """(3, m, r, n) from origins (m, n, 3) to points (m, r, 3)."""
+    return np.moveaxis(points, 2, 0)[..., None] - np.moveaxis(origins, 2, 0)[:, :, None]
+
+
+def _crossed(a: np.ndarray, b: np.ndarray, out: np.ndarray) -> None:
+    """a x b, components first, into out (m, r, 3, ...): numpy's own product is several times slower."""
+    for k in range(3):
+        i, j = (k + 1) % 3, (k + 2) % 3
+        np.subtract(a[i] * b[j], a[j] * b[i], out=out[:, :, k])

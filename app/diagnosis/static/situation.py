@@ -11,6 +11,7 @@ from app.diagnosis.static.gravity import gravity_torques, lumped_masses, moment_
 from app.kinematics import Chain, RobotModel
 
 MOVED = 1e-7  # rad or m: a joint that changed by less than this has rested
+ROUNDING = 1e-12  # of the largest torque: what is smaller is none
 
 
 @dataclass(frozen=True, eq=False)
@@ -114,6 +115,8 @@ def situation_for(
         if payload is not None:
             com = np.zeros(3) if payload_com is None else payload_com
             torque = torque + payload_torques(chain, frames, payload, com)
+        # An upright joint carries nothing: what rounding leaves of it has a sign at random, and no backlash follows.
+        torque = np.where(np.abs(torque) > ROUNDING * np.abs(torque).max(initial=0.0), torque, 0.0)
     approach, move = approach_signs(q, np.zeros(m, int) if sessions is None else sessions)
     return Situation(
         chain=chain,
