@@ -46,20 +46,20 @@ class Jogging:
         self.enabled = self.stopped = False
         self.frame, self.increment, self.override = "joint", "continuous", 0.5
         self._held: Jog | None = None
-        self._heard = 0.0
+        self._heard, self._silence = 0.0, SILENCE
         self._press = 0  # number of the press; belongs to the event loop
         self._spent: tuple[Jog, int] | None = None  # the press whose increment has begun
 
-    def hear(self, jog: Jog, forgotten: float = FORGOTTEN) -> None:
+    def hear(self, jog: Jog, silence: float | None = None) -> None:
         """The button is (still) held; from the event loop: takes the time and enqueues.
 
         Args:
-            forgotten: silence [s] after which this is another press, though nobody let go.
+            silence: seconds without another word after which the arm stands; None: `SILENCE`.
         """
         heard = time.monotonic()
-        if heard - self._heard > forgotten:
+        if heard - self._heard > FORGOTTEN:  # another press, though nobody let go
             self._press += 1
-        self._heard = heard
+        self._heard, self._silence = heard, SILENCE if silence is None else silence
         press = self._press
         self._pendant.worker.latest("jog", lambda: self._hold(jog, heard, press))
 
@@ -121,7 +121,7 @@ class Jogging:
         return self._held == jog and self.enabled and not self.stopped
 
     def _wanted(self, jog: Jog) -> bool:
-        return self._may(jog) and time.monotonic() - self._heard <= SILENCE
+        return self._may(jog) and time.monotonic() - self._heard <= self._silence
 
     def _end(self, jog: Jog) -> None:
         if self._held == jog:

@@ -5,7 +5,9 @@ import pytest
 from app.pendant import motion
 from app.pendant.server import PendantServer
 from app.session import Store
+from app.units import deg
 from benchmarks._browser import Browser
+from tests.pendant.hand import Hand
 from tests.pendant.test_server import until
 
 
@@ -25,6 +27,27 @@ def open_pendant(tmp_path):
     for server, browser in opened:
         browser.close()
         server.stop()
+
+
+@pytest.fixture
+def seat(tmp_path):
+    """(a hand at the page, its pendant, everywhere axis 1 was shown [deg])."""
+    server = PendantServer(Store(tmp_path), port=0, robot="ur10e")
+    hand = Hand(server.port)
+    until(lambda: server.pendants and hasattr(server.pendants[0], "page"), "the page")
+    pendant = server.pendants[0]
+    assert pendant.worker.idle()
+    assert hand.wait_for(lambda: "Axis 1" in hand.fields and "○ Touch 1" in hand.rows and "P" in hand.keys)
+    show, shown = pendant.show, []
+
+    def watched(q):
+        shown.append(float(deg(q[0])))
+        show(q)
+
+    pendant.show = watched
+    yield hand, pendant, shown
+    hand.close()
+    server.stop()
 
 
 @pytest.fixture

@@ -15,12 +15,13 @@ class Hand(Browser):
 
     Attributes:
         rows: label -> uuid of every row of buttons on the page now.
+        keys: hotkey -> uuid of its command.
         fields: label -> uuid of the sliders and number fields that were made last.
         gone: set when the connection has ended and all that came by it is read.
     """
 
     def __init__(self, port, token=None):
-        self.rows, self.fields, self._labels, self._handle = {}, {}, {}, ("", "")
+        self.rows, self.fields, self.keys, self._labels, self._handle = {}, {}, {}, {}, ("", "")
         self.gone, self._news = threading.Event(), threading.Condition()
         super().__init__(port, token)
 
@@ -44,6 +45,12 @@ class Hand(Browser):
         for value in values:
             self.send("GuiUpdateMessage", uuid=self.fields[field], updates={"value": value})
             time.sleep(every)
+
+    def key(self, name, times=1, every=0.033):
+        """A key pressed, and repeated as a held one does: viser's page says no more of it."""
+        for number in range(times):
+            time.sleep(every if number else 0.0)
+            self.send("CommandTriggerMessage", uuid=self.keys[name])
 
     def drag(self, pose):
         """Takes the handle to `pose`, T_base_tool, and lets go."""
@@ -79,6 +86,8 @@ class Hand(Browser):
             self.rows[label], self._labels[uuid] = uuid, label
         elif kind in ("GuiSliderMessage", "GuiNumberMessage", "GuiVector3Message"):
             self.fields[message["props"]["label"]] = message["uuid"]
+        elif kind == "RegisterCommandMessage":
+            self.keys[message["props"]["hotkey"]] = message["uuid"]
         elif kind == "GuiRemoveMessage":
             label = self._labels.pop(message["uuid"], None)
             if self.rows.get(label) == message["uuid"]:

@@ -5,11 +5,8 @@ import time
 import numpy as np
 import pytest
 
-from app.pendant.server import PendantServer
 from app.pendant.typed import RESTED, Dragged
-from app.session import Store
 from app.units import deg
-from tests.pendant.hand import Hand
 from tests.pendant.test_server import until
 
 pytestmark = pytest.mark.xdist_group("pendant_server")
@@ -28,27 +25,6 @@ def test_typing_is_never_taken_for_a_drag_however_quick(typed):
 def test_a_drag_is_known_by_its_third_value_and_forgotten_after_a_rest():
     assert heard(10.0, 14.0, 18.0, 22.5, 30.0) == [False, False, True, True, True]
     assert not any(heard(10.0, 14.0, 18.0, 22.5, every=0.5))
-
-
-@pytest.fixture
-def seat(tmp_path):
-    """(a hand at the page, its pendant, everywhere axis 1 was shown [deg])."""
-    server = PendantServer(Store(tmp_path), port=0, robot="ur10e")
-    hand = Hand(server.port)
-    until(lambda: server.pendants and hasattr(server.pendants[0], "page"), "the page")
-    pendant = server.pendants[0]
-    assert pendant.worker.idle()
-    assert hand.wait_for(lambda: "Axis 1" in hand.fields and "○ Touch 1" in hand.rows)
-    show, shown = pendant.show, []
-
-    def watched(q):
-        shown.append(float(deg(q[0])))
-        show(q)
-
-    pendant.show = watched
-    yield hand, pendant, shown
-    hand.close()
-    server.stop()
 
 
 def test_a_typed_angle_sends_the_arm_to_the_whole_number_only(seat):
