@@ -96,7 +96,9 @@ class Page:
             html.item(f"{100 * jogging.override:.0f} %", testid="status-speed"),
             html.item(pendant.model.title, testid="status-robot", gives=True),
             html.item(
-                t("status.tool", name=tool.name) if tool else t("status.no_tool"), testid="status-tool"
+                t("status.tool", name=tool.name) if tool else t("status.no_tool"),
+                testid="status-tool",
+                gives=True,
             ),
             html.item(
                 t("status.points", done=len(state.steps) - len(state.missing), all=len(state.steps)),

@@ -62,9 +62,9 @@ def sit_down(chromium):
     """Opens a browser in front of a server and gives the person who sits there."""
     contexts = []
 
-    def open_(server, context=None):
+    def open_(server, context=None, screen=SCREEN):
         if context is None:
-            context = chromium.new_context(viewport=SCREEN)
+            context = chromium.new_context(viewport=screen)
             contexts.append(context)
         return Operator(context.new_page(), server)
 
