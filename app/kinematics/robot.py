@@ -54,6 +54,14 @@ class RobotModel:
     def title(self) -> str:
         return self.description.get("title", self.name)
 
+    def said(self, key: str, language: str) -> str:
+        """What the description says under a key, `title` or `maker`, in a language: its table `words.LANGUAGE` first.
+
+        Names stay themselves in every language; only what is no name needs another word.
+        """
+        own = self.title if key == "title" else str(self.description.get(key, "?"))
+        return str(self.description.get("words", {}).get(language, {}).get(key, own))
+
     @property
     def joint_count(self) -> int:
         return len(self.joints)

@@ -20,11 +20,12 @@ from app.pendant.exercising import aids_of, cell_key
 from app.pendant.jogging import Jogging
 from app.pendant.layout import Layout
 from app.pendant.loaded import cell_of
+from app.pendant.look import LOOK, Look
 from app.pendant.moving import Moving
 from app.pendant.page import Page
 from app.pendant.shelf import Shelf
 from app.pendant.stage import Stage
-from app.pendant.texts import FALLBACK, error_text, text
+from app.pendant.texts import error_text, text
 from app.pendant.trail import Trail
 from app.pendant.worker import Job, Worker
 from app.session import AnyAction, Session, SessionState
@@ -44,6 +45,7 @@ class Pendant(Moving):
         session: whose state is shown.
         world_of: the cell of an arm.
         shelf: all sessions of the server.
+        look: how the page shall look and speak.
     """
 
     def __init__(
@@ -52,9 +54,12 @@ class Pendant(Moving):
         session: Session,
         world_of: Callable[[RobotModel], World],
         shelf: Shelf,
+        look: Look | None = None,
     ):
         self.client, self.session, self._world_of, self.shelf = client, session, world_of, shelf
-        self.language, self.vocabulary, self.dark, self.convention = FALLBACK, "", False, "ZYX"
+        look = look or Look()
+        self.language, self.vocabulary = look.language, look.vocabulary
+        self.dark, self.convention = look.dark, look.convention
         self.aids = aids_of(session.state)
         self.log: list[tuple[float, str, str]] = []
         self.open = True
@@ -126,8 +131,18 @@ class Pendant(Moving):
             return exercise
         return cell_of(self._world_of(self.model), state)
 
+    @property
+    def look(self) -> Look:
+        """How the page looks and speaks."""
+        return Look(self.language, self.vocabulary, self.convention, self.dark)
+
+    def keep_look(self) -> None:
+        """The browser remembers how the page looks and speaks."""
+        self.client.local_storage.set_item(LOOK, self.look.written())
+
     def rebuild(self) -> None:
         """Makes the whole page anew: another arm, another language."""
+        self.keep_look()
         self.worker.halt()
         self.page.close()
         self.client.gui.reset()

@@ -94,7 +94,7 @@ class Page:
             html.item(t(f"status.{enabling}"), testid="status-enable"),
             html.item(t("status.frame", name=t(f"jog.frame_{jogging.frame}")), testid="status-frame"),
             html.item(f"{100 * jogging.override:.0f} %", testid="status-speed"),
-            html.item(pendant.model.title, testid="status-robot", gives=True),
+            html.item(pendant.model.said("title", pendant.language), testid="status-robot", gives=True),
             html.item(
                 t("status.tool", name=tool.name) if tool else t("status.no_tool"),
                 testid="status-tool",

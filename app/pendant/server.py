@@ -15,6 +15,7 @@ import viser
 from app.kinematics import RobotModel
 from app.pendant.client import Pendant
 from app.pendant.hub import Hub
+from app.pendant.look import LOOK, Look
 from app.pendant.shelf import Shelf
 from app.session import Session, Store
 from app.simulation.world import World, default_world
@@ -91,17 +92,18 @@ class PendantServer:
         """Runs on a thread of viser's pool, because asking the browser for its token waits for the answer."""
         try:
             token = client.local_storage.get_item(_TOKEN, timeout=_ANSWER_WITHIN)
+            look = Look.read(client.local_storage.get_item(LOOK, timeout=_ANSWER_WITHIN))
         except (RuntimeError, TimeoutError):  # gone again, or its storage is shut: then without a token
-            token = None
+            token, look = None, Look()
         session, how = self.hub.enter(token)
         if session.name != token:
             client.local_storage.set_item(_TOKEN, session.name)
-        self._show(client, session, how)
+        self._show(client, session, how, look)
         if client.client_id not in self._viser.get_clients():  # left while the page was made
             self._gone(client)
 
-    def _show(self, client: viser.ClientHandle, session: Session, how: str) -> None:
-        pendant = Pendant(client, session, self._world_of, self._shelf)
+    def _show(self, client: viser.ClientHandle, session: Session, how: str, look: Look) -> None:
+        pendant = Pendant(client, session, self._world_of, self._shelf, look)
         with self._lock:
             self._pendants[client.client_id] = pendant
         self.hub.show(session.name, pendant)
@@ -115,13 +117,16 @@ class PendantServer:
         client = self._viser.get_clients().get(number)
         if client is None or self.hub.in_use(name):
             return
+        with self._lock:
+            before = self._pendants.get(number)
+        look = Look() if before is None else before.look
         self._gone(client)
         session, how = self.hub.enter(name)
         client.local_storage.set_item(_TOKEN, session.name)
         with client.atomic():
             client.gui.reset()
             client.scene.reset()
-        self._show(client, session, how)
+        self._show(client, session, how, look)
 
     def _gone(self, client: viser.ClientHandle) -> None:
         with self._lock:

@@ -120,6 +120,11 @@ def test_the_handle_moves_or_turns_as_chosen_and_all_labels_change_language(serv
     }
     assert not left and len(english - chinese) > 40, left
     person.picture("chinese")
+    before = person.pendant
+    person.page.reload()
+    person.until(lambda: any(p is not before for p in person.server.pendants), "the page to come back")
+    person.page.get_by_role("tab", name="点动", exact=True).wait_for()
+    assert next(p for p in person.server.pendants if p is not before).language == "zh"
     assert not person.faults
 
 

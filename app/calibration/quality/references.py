@@ -9,7 +9,7 @@ from scipy import special
 
 from app.calibration.quality.rounding import Rounding
 from app.calibration.result import ToolCalibration
-from app.calibration.wording import phrase
+from app.calibration.wording import TEXTS, phrase
 from app.units import mm
 
 #: A gap this rare under an explanation is not explained by it.
@@ -34,12 +34,17 @@ class Gap:
     explained_by: str
     p_value: float
 
+    def title(self, language: str = "en") -> str:
+        """What the tool beside it is called: `measured tool`."""
+        known = f"stated.{self.name}"
+        return TEXTS.text(known, language) if TEXTS.has(known) else self.name.replace("_", " ")
+
     def sentence(self, language: str = "en") -> str:
         """What a person reads."""
         text = ", ".join(f"{a} {v:+.3f}" for a, v in zip("xyz", mm(self.gap), strict=True))
         key = {"rounding": "rounding", "touch noise": "noise"}.get(self.explained_by, "nothing")
         most = float(np.max(np.abs(self.sigmas)))
-        name = self.name.replace("_", " ")
+        name = self.title(language)
         return phrase(f"gap.{key}", name=name, gap=text, most=most, p=self.p_value).text(language)
 
 

@@ -12,6 +12,7 @@ from app.session.actions import ChooseRobot
 from app.session.state import robot_named
 
 if TYPE_CHECKING:
+    from app.kinematics import RobotModel
     from app.pendant.client import Pendant
 
 
@@ -19,9 +20,9 @@ class _View:
     def __init__(self, pendant: Pendant):
         self._pendant = pendant
         gui, t = pendant.client.gui, pendant.t
-        self._robots = {robot_named(name).title: name for name in robot_names()}
+        self._robots = {self._title(robot_named(name)): name for name in robot_names()}
         self._robot = gui.add_dropdown(
-            t("cell.robot"), tuple(self._robots), initial_value=pendant.model.title
+            t("cell.robot"), tuple(self._robots), initial_value=self._title(pendant.model)
         )
         pendant.changed(self._robot, "robot", self._choose)
         gui.add_html(html.paragraph(self._facts(), faint=True, testid="robot-facts"))
@@ -45,12 +46,15 @@ class _View:
             )
         )
 
+    def _title(self, robot: RobotModel) -> str:
+        return robot.said("title", self._pendant.language)
+
     def _facts(self) -> str:
         robot = self._pendant.model
         about = robot.description
         return self._pendant.t(
             "cell.facts",
-            maker=about.get("maker", "?"),
+            maker=robot.said("maker", self._pendant.language),
             reach=f"{float(about.get('reach_m', robot.reach)):.2f}",
             load=f"{about.get('payload_kg', 0):g}",
             joints=robot.joint_count,
@@ -59,7 +63,7 @@ class _View:
     def _choose(self, title: str) -> None:
         pendant = self._pendant
         pendant.do(ChooseRobot(self._robots[title]))
-        pendant.say("good", pendant.t("message.robot", title=pendant.model.title))
+        pendant.say("good", pendant.t("message.robot", title=self._title(pendant.model)))
 
     def _speak(self, name: str) -> None:
         pendant = self._pendant
@@ -70,6 +74,7 @@ class _View:
     def _dark(self, dark: bool) -> None:
         pendant = self._pendant
         pendant.dark = dark
+        pendant.keep_look()
         pendant.layout.theme(dark)
         pendant.stage.floor(dark)
 
@@ -86,8 +91,9 @@ class _View:
         self._pendant.stage.refresh(self._pendant.session.state)
 
     def refresh(self, state: SessionState) -> None:
-        if self._robot.value != self._pendant.model.title:
-            self._robot.value = self._pendant.model.title
+        title = self._title(self._pendant.model)
+        if self._robot.value != title:
+            self._robot.value = title
 
     def close(self) -> None:
         pass

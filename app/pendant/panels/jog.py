@@ -8,6 +8,7 @@ import viser
 
 from app.pendant import html
 from app.pendant.jogging import FRAMES, INCREMENTS, Jog
+from app.pendant.panels._jog.axes import pairs
 from app.pendant.panels._jog.keys import Keys
 from app.pendant.panels._jog.user import UserFrame
 from app.session import SessionState
@@ -18,7 +19,6 @@ if TYPE_CHECKING:
 _HOLD_HZ = 15.0
 #: Two tones, so that a pair reads as a pair.
 _TONES = {-1: (134, 142, 150), 1: (73, 80, 87)}
-_CARTESIAN = ("X", "Y", "Z", "RX", "RY", "RZ")
 
 
 class _View:
@@ -60,10 +60,8 @@ class _View:
             button.remove()
         self._buttons = []
         pendant, gui = self._pendant, self._pendant.client.gui
-        joint = pendant.jogging.frame == "joint"
-        names = [f"J{k + 1}" for k in range(pendant.model.joint_count)] if joint else _CARTESIAN
         with self._folder:
-            for axis, name in enumerate(names):
+            for axis, name in pairs(pendant):
                 for sign, mark in ((-1, "−"), (1, "+")):
                     button = gui.add_button(f"{name} {mark}", color=_TONES[sign])
                     jog = Jog(pendant.jogging.frame, axis, sign)

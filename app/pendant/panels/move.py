@@ -10,6 +10,7 @@ import numpy as np
 from app.geometry import CONVENTIONS
 from app.pendant import html
 from app.pendant.scene.camera import CLOSE_UPS, VIEWS
+from app.pendant.screens._tool.words import Words
 from app.session import SessionState
 from app.units import deg, from_deg, from_mm, mm
 
@@ -36,10 +37,11 @@ class _View:
             self._sliders.append(slider)
         pendant.clicked(gui.add_button(t("move.home")), self._home)
         self._readout = gui.add_html("")
+        self._forms = Words(pendant).conventions()
         self._angles = gui.add_dropdown(
             t("move.convention"),
-            tuple(c.title for c in CONVENTIONS.values()),
-            initial_value=CONVENTIONS[pendant.convention].title,
+            tuple(self._forms),
+            initial_value=next(t for t, key in self._forms.items() if key == pendant.convention),
         )
         pendant.changed(self._angles, "angles", self._convention)
         if pendant.aids.handle:
@@ -62,7 +64,8 @@ class _View:
         pendant.go(pendant.model.home, lambda: pendant.say("info", pendant.t("message.home")))
 
     def _convention(self, title: str) -> None:
-        self._pendant.convention = next(key for key, c in CONVENTIONS.items() if c.title == title)
+        self._pendant.convention = self._forms[title]
+        self._pendant.keep_look()
         self._pendant.page.refresh(self._pendant.session.state)
 
     def _handle(self, shift: bool, turn: bool) -> None:
@@ -82,8 +85,14 @@ class _View:
         pose = flange @ state.tool.T_flange_tool if state.tool else flange
         form = CONVENTIONS[pendant.convention]
         numbers = form.from_rotation(pose.rotation)
-        shown = [f"{v:.2f}°" for v in deg(numbers)] if form.angular else [f"{v:.5f}" for v in numbers]
-        names = [c.upper() if form.angular else c for c in form.columns]
+        words = Words(pendant)
+        if not form.angular:
+            shown = [f"{v:.5f}" for v in numbers]
+        elif words.radians(form.key):
+            shown = [f"{v:.4f} rad" for v in numbers]
+        else:
+            shown = [f"{v:.2f}°" for v in deg(numbers)]
+        names = words.angles(form.key)
         lengths = [f"{v:.2f} mm" for v in mm(pose.position)]
         rows = []
         for row in range(max(3, len(names))):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 import viser
@@ -12,6 +12,7 @@ from app.geometry import Pose
 from app.geometry.circle import AxisFit
 from app.kinematics.shapes import ball, box, rod
 from app.pendant.arm import ArmView, draw_shapes, pointer_shapes
+from app.pendant.texts import text
 from app.simulation.tracker_cell import TrackerCell
 from app.simulation.tracker_meeting import pointer
 from app.units import from_mm
@@ -31,7 +32,7 @@ class CellDrawing:
         cell: what to draw; its truth is only used to place the bodies.
     """
 
-    def __init__(self, scene: viser.SceneApi, cell: TrackerCell):
+    def __init__(self, scene: viser.SceneApi, cell: TrackerCell, t: Callable[..., str] = text):
         self._scene, self.cell = scene, cell
         self._root = scene.add_frame(ROOT, show_axes=False)
         self.arms: list[ArmView] = []
@@ -62,7 +63,10 @@ class CellDrawing:
             )
             draw_shapes(scene, f"{view.flange_path}/nest", nest)
             scene.add_label(
-                f"{ROOT}/robot{k}/name", f"Robot {k}", position=(0.0, -0.16, -0.1), anchor="top-center"
+                f"{ROOT}/robot{k}/name",
+                t("base.robot_number", number=k),
+                position=(0.0, -0.16, -0.1),
+                anchor="top-center",
             )
         floor = tuple(ball(p, from_mm(30.0), colour=_RED, link="nest") for p in cell.nests)
         stands = tuple(
@@ -75,7 +79,7 @@ class CellDrawing:
             )
         self._tracker = draw_shapes(scene, f"{ROOT}/tracker", _tracker_shapes(cell))
         self.stand(cell.tracker.T_world_tracker)
-        scene.add_label(f"{ROOT}/tracker/name", "Tracker", position=(0.0, 0.0, 0.32))
+        scene.add_label(f"{ROOT}/tracker/name", t("base.tracker_label"), position=(0.0, 0.0, 0.32))
         self._found: dict[str, viser.SceneNodeHandle] = {}  # by name: one drawn again replaces the one before
         self._beam: viser.SceneNodeHandle | None = None
 

@@ -103,6 +103,7 @@ class _View:
             pushed=False,
             seed=int(pendant.rng.integers(_SPREAD)),
             exam=exam,
+            t=pendant.t,
         )
         camera = pendant.client.camera
         look(camera, _whole(self._run.drawn, camera.aspect))

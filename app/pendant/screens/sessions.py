@@ -65,7 +65,7 @@ class _View:
     def _title(self, listed: Listed) -> str:
         began = time.strftime("%m-%d %H:%M", time.localtime(listed.created))
         mine = "● " if listed.name == self._pendant.session.name else ""
-        robot = robot_named(listed.robot).title if listed.robot else "?"
+        robot = robot_named(listed.robot).said("title", self._pendant.language) if listed.robot else "?"
         return f"{mine}{began} · {robot} · {listed.actions} · {listed.name[:6]}"
 
     @property

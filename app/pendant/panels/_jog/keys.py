@@ -19,6 +19,7 @@ from typing import TYPE_CHECKING, Literal
 import viser
 
 from app.pendant.jogging import INCREMENTS, Jog
+from app.pendant.panels._jog.axes import pairs
 
 if TYPE_CHECKING:
     from app.pendant.client import Pendant
@@ -63,8 +64,9 @@ class Keys:
 
             @command.on_trigger
             async def _(event: viser.CommandEvent, sign: int = sign) -> None:
-                if self.axis < self._count:
-                    self._hear(Jog(jogging.frame, self.axis, sign))
+                known = pairs(pendant)
+                if self.axis < len(known):
+                    self._hear(Jog(jogging.frame, known[self.axis][0], sign))
 
         for number, key in enumerate(_AXES[: max(6, pendant.model.joint_count)]):
             command = gui.add_command(t("jog.key_axis", number=number + 1), hotkey=key)
@@ -95,21 +97,12 @@ class Keys:
         jogging.let_go()
         jogging.hear(jog, KEY_SILENCE)
 
-    @property
-    def _count(self) -> int:
-        return self._pendant.model.joint_count if self._pendant.jogging.frame == "joint" else 6
-
     def _choose(self, number: int) -> None:
         self.axis = number
         pendant = self._pendant
-        if number < self._count:
-            names = [f"J{k + 1}" for k in range(self._count)]
-            name = (
-                names[number]
-                if pendant.jogging.frame == "joint"
-                else ("X", "Y", "Z", "RX", "RY", "RZ")[number]
-            )
-            pendant.say("info", pendant.t("message.key_axis", name=name))
+        known = pairs(pendant)
+        if number < len(known):
+            pendant.say("info", pendant.t("message.key_axis", name=known[number][1]))
 
     def remove(self) -> None:
         """The page goes away: viser's own reset keeps commands."""

@@ -14,6 +14,7 @@ from app.geometry.circle import fit_axis
 from app.pendant.motion import move, pause
 from app.pendant.scene.tracker_cell import CellDrawing
 from app.pendant.screens._base.exam import PUSH, Exam
+from app.pendant.texts import text
 from app.simulation.tracker import Sight
 from app.simulation.tracker_cell import TrackerCell
 from app.simulation.tracker_meeting import Meeting, meet, pointer
@@ -32,6 +33,7 @@ class Run:
         pushed: somebody pushes the tracker before robot 2, and tells nobody.
         seed: of the tracker's noise.
         exam: the session it belongs to: its wizard, and in an exercise a drawing that stands beside the truth.
+        t: texts in the operator's language.
     """
 
     def __init__(
@@ -43,15 +45,17 @@ class Run:
         pushed: bool,
         seed: int,
         exam: Exam | None = None,
+        t: Callable[..., str] = text,
     ):
         self.cell = self.now = cell
         self.exam = exam
+        self._t = t
         self.drawn = cell if exam is None else exam.truth.drawn
         self.wizard = BaseWizard(steps(2, nests)) if exam is None else exam.wizard
         self.bases: tuple[BaseCalibration, ...] = ()
         self.relation: Relation | None = None
         self.meeting: Meeting | None = None
-        self.drawing = CellDrawing(scene, self.drawn)
+        self.drawing = CellDrawing(scene, self.drawn, t)
         self._push = (PUSH if pushed else None) if exam is None else exam.truth.pushed
         self._rng = np.random.default_rng(seed)
         self.postures = [arm.rest.copy() for arm in cell.arms]
@@ -193,7 +197,13 @@ class Run:
             second = base.second.axes
             t = float((base.T_tracker_base.position - second.point) @ second.direction)
             foot = station.apply(second.point + t * second.direction)
-            self.drawing.frame(f"base{k}", found, f"base {k}", foot, 0.28 * self.cell.arms[k - 1].robot.reach)
+            self.drawing.frame(
+                f"base{k}",
+                found,
+                self._t("base.base_label", number=k),
+                foot,
+                0.28 * self.cell.arms[k - 1].robot.reach,
+            )
         return self.relation
 
     def meet(self, done: Callable[[Meeting], None]) -> Iterator[None]:

@@ -40,7 +40,10 @@ _LIGHT = {"clean": "green", "named": "blue", "partly": "yellow", "unexplained": 
 def recording(pendant: Pendant, loaded: Loaded) -> str:
     """Which file, which robot, how many rows."""
     words = pendant.t(
-        "compare.recording", file=loaded.path.name, count=loaded.count, robot=loaded.robot.title
+        "compare.recording",
+        file=loaded.path.name,
+        count=loaded.count,
+        robot=loaded.robot.said("title", pendant.language),
     )
     return html.paragraph(words, testid="compare-recording")
 

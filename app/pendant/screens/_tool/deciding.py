@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from app.pendant.screens._tool.giving import send_frame, send_report, titles
+from app.pendant.screens._tool.giving import send_frame, send_report
 from app.pendant.screens._tool.result import light_html, result_html
 from app.pendant.screens._tool.verifying import Verifying
+from app.pendant.screens._tool.words import Words
 from app.session import SessionState
 from app.session.actions import Accept, Cancel
 from app.session.state import accepted
@@ -36,7 +37,7 @@ class Deciding:
             )
             self.verifying = Verifying(pendant)
             self.page = gui.add_html("")
-            self._formats = titles()
+            self._formats = Words(pendant).formats()
             self._format = gui.add_dropdown(t("tool.format"), tuple(self._formats))
             give = gui.add_button_group(t("tool.give"), (t("tool.export"), t("tool.report")))
         decide = {t("tool.accept"): self.accept, t("tool.cancel"): self._cancel}

@@ -6,7 +6,7 @@ import tempfile
 from datetime import datetime
 from typing import TYPE_CHECKING
 
-from app.calibration.exchange import ToolFrame, exchange_format, formats, read_frame
+from app.calibration.exchange import ToolFrame, exchange_format, read_frame
 from app.calibration.report import report
 from app.pendant.screens._tool.paper import calculate
 from app.pendant.uploads import put
@@ -17,11 +17,6 @@ if TYPE_CHECKING:
     from app.pendant.client import Pendant
 
 _LARGEST = 1_000_000  # bytes of a tool frame somebody may send
-
-
-def titles() -> dict[str, str]:
-    """Title of each format -> its key."""
-    return {form.title: key for key, form in formats().items()}
 
 
 def send_frame(pendant: Pendant, key: str, name: str) -> None:

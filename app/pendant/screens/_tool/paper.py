@@ -9,6 +9,7 @@ import numpy as np
 
 from app import resources
 from app.kinematics import solve_ik
+from app.pendant.screens._tool.words import Words
 from app.pendant.uploads import put
 from app.session.actions import Calculate, ChooseRobot, LoadPoints
 from app.session.points import load_action
@@ -44,7 +45,7 @@ def play_upload(pendant: Pendant, name: str, content: bytes) -> None:
 def play(pendant: Pendant, action: LoadPoints) -> None:
     """Loads points, takes the arm through those it can reach, and calculates."""
     state = pendant.do(action)
-    titles, stops, q = [], [], pendant.q
+    words, titles, stops, q = Words(pendant), [], [], pendant.q
     for step, capture in zip(state.steps, state.ordered, strict=True):
         if capture.q is not None:
             q = np.array(capture.q)
@@ -58,7 +59,7 @@ def play(pendant: Pendant, action: LoadPoints) -> None:
                 continue
             q = found.q
         stops.append(q)
-        titles.append(step.title)
+        titles.append(words.step(step).title)
     if len(stops) < len(state.steps):  # another arm's points: nothing to show, but the numbers hold
         calculate(pendant)
         return

@@ -132,6 +132,6 @@ def _remarks(pendant: Pendant, solved: Solved) -> list[tuple[str, str]]:
         key = {"rounding": "gap_rounding", "touch noise": "gap_noise"}.get(gap.explained_by, "gap_nothing")
         x, y, z = (f"{v:+.3f}" for v in mm(gap.gap))
         most = float(np.max(np.abs(gap.sigmas)))
-        words = t(f"result.{key}", name=gap.name.replace("_", " "), x=x, y=y, z=z, most=f"{most:.1f}")
+        words = t(f"result.{key}", name=gap.title(pendant.language), x=x, y=y, z=z, most=f"{most:.1f}")
         out.append(("red" if key == "gap_nothing" else "blue", words))
     return out

@@ -5,9 +5,11 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from app.calibration.captures import Mode, Step
+from app.calibration.exchange import formats
 from app.calibration.modes import modes
 from app.calibration.vocabularies import Vocabulary, vocabularies, vocabulary
 from app.geometry import CONVENTIONS
+from app.pendant.texts import has_text
 
 if TYPE_CHECKING:
     from app.pendant.client import Pendant
@@ -62,6 +64,18 @@ class Words:
             return words.angle_names
         form = CONVENTIONS[key]
         return tuple(c.upper() for c in form.columns) if form.angular else form.columns
+
+    def conventions(self) -> dict[str, str]:
+        """Title -> key of all angle conventions."""
+        return {self._said(f"angles.{key}", form.title): key for key, form in CONVENTIONS.items()}
+
+    def formats(self) -> dict[str, str]:
+        """Title -> key of all formats a tool frame is written in."""
+        return {self._said(f"formats.{key}", form.title): key for key, form in formats().items()}
+
+    def _said(self, key: str, own: str) -> str:
+        """The operator's words for what has a name of its own; the name where none are needed."""
+        return self._pendant.t(key) if has_text(key, self._pendant.language) else own
 
     def radians(self, key: str) -> bool:
         """True where the maker chosen shows this convention in radians."""

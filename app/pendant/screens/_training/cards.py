@@ -36,7 +36,7 @@ def before(pendant: Pendant, chosen: Exercise) -> str:
     """What it is about, what helps, what is good."""
     t, words = pendant.t, chosen.said(pendant.language)
     robots = chosen.hidden.robots or (chosen.robot,)
-    names = " + ".join(load_robot(name).title for name in robots)
+    names = " + ".join(load_robot(name).said("title", pendant.language) for name in robots)
     rows = [(t("training.robot"), names), (t("training.good"), _aims(pendant, chosen))]
     if chosen.goal != "relation":
         rows.append((t("training.helps"), _helps(pendant, chosen)))
