@@ -33,12 +33,12 @@ def curves(state: State, joint: int) -> dict[str, np.ndarray]:
 
 def hats(x: np.ndarray, knots: np.ndarray) -> np.ndarray:
     """(m, k) piecewise linear functions, one a knot; flat beyond the ends."""
-    out = np.empty((len(x), len(knots)))
-    for k in range(len(knots)):
-        unit = np.zeros(len(knots))
-        unit[k] = 1.0
-        out[:, k] = np.interp(x, knots, unit)
-    return out
+    out = np.zeros((len(knots), len(x)))  # a function lies next to itself in memory
+    low = np.clip(np.searchsorted(knots, x, side="right") - 1, 0, len(knots) - 2)
+    share = np.clip((x - knots[low]) / (knots[low + 1] - knots[low]), 0.0, 1.0)
+    at = np.arange(len(x))
+    out[low, at], out[low + 1, at] = 1.0 - share, share
+    return out.T
 
 
 def speed_curve(qd: np.ndarray) -> np.ndarray:

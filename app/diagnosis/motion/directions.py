@@ -23,16 +23,15 @@ def halved(
         (c, k, B) rows, zeros where a direction does not show; (c,) how many do.
     """
     size = matrices.shape[1]
-    whole = possible & lower(matrices - least * np.eye(size))[1]  # all eigenvalues are above
+    inverse, good = inverse_factors(matrices)
+    # The largest eigenvalue of the inverse is no more than their sum.
+    whole = possible & good & (np.einsum("cij,cij->c", inverse, inverse) * least < 1.0)
+    if whole.all():
+        return inverse @ blocks, np.full(len(blocks), size)
     done, count = np.zeros_like(blocks), np.where(whole, size, 0)
     at = np.flatnonzero(whole)
-    factor, left = lower(matrices[at])[0], blocks[at]
-    for i in range(size):
-        for k in range(i):
-            left[:, i] -= factor[:, i, k, None] * left[:, k]
-        left[:, i] /= factor[:, i, i, None]
-    done[at] = left
-    if len(rest := np.flatnonzero(possible & ~whole)) and size > 1:
+    done[at] = inverse[at] @ blocks[at]
+    if len(rest := np.flatnonzero(possible & ~whole)):
         values, vectors = np.linalg.eigh(matrices[rest])
         keep = values > least
         half = np.swapaxes(vectors, 1, 2) / np.sqrt(np.where(keep, values, np.inf))[:, :, None]
@@ -40,12 +39,19 @@ def halved(
     return done, count
 
 
-def lower(matrices: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Cholesky factors (c, k, k) of many small matrices, and (c,) False where one is not positive definite."""
-    out, good = np.zeros_like(matrices), np.ones(len(matrices), bool)
-    for j in range(matrices.shape[1]):
-        column = matrices[:, j:, j] - np.matmul(out[:, j:, :j], out[:, j, :j, None])[:, :, 0]
-        good &= column[:, 0] > 0
-        column[~good] = 0.0  # what is none grows without bounds
-        out[:, j:, j] = column / np.sqrt(np.where(good, column[:, 0], 1.0))[:, None]
-    return out, good
+def inverse_factors(matrices: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """L^-1 of the Cholesky factors of many small matrices (c, k, k), and (c,) False where there is none."""
+    count, size = matrices.shape[:2]
+    rest = np.moveaxis(matrices, 0, 2).copy()  # (k, k, c): what is left of each matrix
+    out, good = np.zeros((size, size, count)), np.ones(count, bool)
+    out[range(size), range(size)] = 1.0
+    for j in range(size):  # Gaussian elimination without exchanges, on the matrix and on the identity
+        pivot = rest[j, j]
+        good &= pivot > 0
+        pivot = np.where(good, pivot, 1.0)
+        for i in range(j + 1, size):
+            factor = np.where(good, rest[i, j], 0.0) / pivot  # what is none would grow without bounds
+            rest[i, j:] -= factor * rest[j, j:]
+            out[i, : j + 1] -= factor * out[j, : j + 1]
+        out[j, : j + 1] /= np.sqrt(pivot)
+    return np.ascontiguousarray(np.moveaxis(out, 2, 0)), good

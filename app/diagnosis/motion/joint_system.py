@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from app.diagnosis.motion.system import Group
 
 ROOM = 64  # columns that may come in before memory is moved
+SLOTS = 12  # likewise into use
 
 
 class JointSystem:
@@ -70,6 +71,12 @@ class JointSystem:
         left = self._rows[0] - values[:i] @ self._rows[1 : 1 + i]
         return left - values[i:] @ self._rows[wanted[i:]] if len(wanted) > i else left
 
+    def scores(self, wanted: np.ndarray, values: np.ndarray) -> np.ndarray:
+        """(P,) columns^T of the same residual, from the Gram matrix."""
+        i, total = self.inertial, self.total
+        left = total[0] - values[:i] @ total[1 : 1 + i]
+        return left - values[i:] @ total[wanted[i:]] if len(wanted) > i else left
+
     def products(self, fresh: np.ndarray, wanted: np.ndarray) -> np.ndarray:
         """(k, a) fresh (M, k) against the columns `wanted`, of which the inertial ones stand first."""
         i = self.inertial
@@ -92,8 +99,8 @@ class JointSystem:
         now = len(self._active)
         self._slot[new] = np.arange(old, now)
         if now > self._blocks.shape[1]:
-            self._blocks = _widened(self._blocks, now + ROOM)
-            self._folds = {k: (chosen, _widened(f, now + ROOM)) for k, (chosen, f) in self._folds.items()}
+            self._blocks = _widened(self._blocks, now + SLOTS)
+            self._folds = {k: (chosen, _widened(f, now + SLOTS)) for k, (chosen, f) in self._folds.items()}
         every, fresh = self._rows[self._active], self._rows[new]
         cross = np.empty((len(self._blocks), now - old, now))
         for b, rows in enumerate(self.block_rows()):
@@ -107,7 +114,7 @@ class JointSystem:
         """(f, a, a) sums of `blocks` over folds; chosen (f, B) is 1 where a block belongs to a fold."""
         key, used = chosen.tobytes(), len(self._active)
         if key not in self._folds:
-            self._folds[key] = (chosen, _summed(chosen, self._blocks))
+            self._folds[key] = (chosen, _widened(_summed(chosen, self.blocks), self._blocks.shape[1]))
         return self._folds[key][1][:, :used, :used]
 
     def append(self, group: Group, fresh: np.ndarray) -> None:

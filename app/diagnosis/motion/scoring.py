@@ -148,7 +148,7 @@ def score_all(
         spread = inverse @ nuisance  # (p, B + 1)
     else:
         scores = [
-            (part.total[0] - theta[pos] @ part.total[col])[None]
+            part.scores(col, theta[pos])[None]
             for part, col, pos in zip(system.parts, solution.columns, solution.positions, strict=True)
         ]
         spread = np.zeros((p, 1))
