@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+import threading
 import time
 from collections.abc import Callable
 from typing import Any
@@ -35,6 +36,7 @@ from app.training.cell import world_of
 
 _LOG = logging.getLogger(__name__)
 _LOG_LENGTH = 200
+_LET_GO = 5.0  # seconds another tab waits for this one
 
 
 class Pendant(Moving):
@@ -63,6 +65,7 @@ class Pendant(Moving):
         self.aids = aids_of(session.state)
         self.log: list[tuple[float, str, str]] = []
         self.open = True
+        self._ending, self._given = threading.Lock(), threading.Event()
         self.trail, self.trainee, self.exercise = Trail(), "", ""
         self.dragging, self.jogging = Dragging(self), Jogging(self)
         self.q = np.array(session.state.q)
@@ -183,19 +186,29 @@ class Pendant(Moving):
         self.post(job)
 
     def taken_over(self) -> None:
-        """Another tab shows this session now."""
+        """Another tab will show this session: on return this one has let go, its arm written."""
         self.worker.halt()
         self.post(self._let_go)
+        self._given.wait(_LET_GO)
 
     def close(self) -> None:
-        """The browser is gone: where the arm stands is written, the worker ends, screens let go."""
+        """The browser is gone, or the server stops, or both: where the arm stands is written, the worker ends, screens
+        let go. Where the session was given to another tab, nothing is written: the arm is that tab's."""
         self.open = False
-        self.worker.stop()
-        if not self.session.closed:
-            self.settle()
-        page = getattr(self, "page", None)
-        if page is not None:
-            page.close()
+        with self._ending:
+            self.worker.stop()
+            if self._given.is_set():
+                return
+            try:
+                if not self.session.closed:
+                    self.settle()
+            except TeachframeError as error:
+                _LOG.warning("where the arm stands was not kept: %s", error)
+            finally:
+                self._given.set()
+            if hasattr(self, "page"):
+                self.page.close()
+                self.stage.handle.remove()  # a drag that goes on has nothing to move any more
 
     def _build(self) -> None:
         self.layout = Layout(self.client.gui, dark=self.dark)
@@ -215,6 +228,8 @@ class Pendant(Moving):
         self.layout = Layout(self.client.gui, dark=self.dark)
         self.client.gui.add_markdown(f"**{self.t('message.taken')}**\n\n{self.t('message.taken_detail')}")
         self.layout.message("warning", self.t("message.taken"))
+        self._given.set()
+        self.worker.stop()  # whatever still comes in is for nobody
 
     def _around(self, job: Job) -> None:
         """Does a job; what fails is told and changes nothing."""
@@ -223,7 +238,8 @@ class Pendant(Moving):
                 try:
                     job()
                 except Exception as error:
-                    self._tell(error)
+                    if self.open:  # else there is nobody to tell, nor a page to show what is so
+                        self._tell(error)
         except Exception:
             if self.open:
                 _LOG.exception("the page of session %s could not be updated", self.session.name)

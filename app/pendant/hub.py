@@ -13,7 +13,7 @@ class View(Protocol):
     """A browser's view of a session, as far as the hub needs it."""
 
     def taken_over(self) -> None:
-        """Another tab shows this session now: say so and let go."""
+        """Another tab will show this session: say so and let go before this returns."""
         ...
 
 
@@ -51,8 +51,15 @@ class Hub:
             self._open[session.name] = session
             return session, how
 
+    def claim(self, name: str) -> None:
+        """Somebody else is about to show this session: whoever does so now has let go when this returns."""
+        with self._lock:
+            before = self._views.pop(name, None)
+        if before is not None:
+            before.taken_over()
+
     def show(self, name: str, view: View) -> None:
-        """This view shows the session from now on; the one before is told."""
+        """This view shows the session from now on; where another came between, that one lets go."""
         with self._lock:
             before = self._views.get(name)
             self._views[name] = view

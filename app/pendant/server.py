@@ -23,6 +23,7 @@ from app.training.records import Records
 
 _TOKEN = "teachframe.session"
 _ANSWER_WITHIN = 10.0  # seconds a browser has to say which session is its own
+_THROUGH = 0.05  # seconds in which viser is through with the message it is at: it warns where its answer goes nowhere
 _LOG = logging.getLogger(__name__)
 
 
@@ -49,6 +50,8 @@ class PendantServer:
         self._host, self._world_of = host, world_of
         self._shelf = Shelf(store, Records(store.database), self.hub.in_use, self._switch)
         self._pendants: dict[int, Pendant] = {}
+        self._leaving: list[Pendant] = []  # views that are being closed
+        self._stopping = False
         self._lock = threading.Lock()
         with contextlib.redirect_stdout(io.StringIO()):  # its own banner would stand before our address
             self._viser = viser.ViserServer(host=host, port=port, label="Teachframe", verbose=False)
@@ -81,11 +84,12 @@ class PendantServer:
 
     def stop(self) -> None:
         """Closes every session and stops listening."""
-        with self._lock:  # whoever takes a view out of the list closes it: nobody else does
-            left, self._pendants = list(self._pendants.values()), {}
-        for pendant in left:
-            pendant.close()
-            self.hub.leave(pendant.session.name, pendant)
+        with self._lock:
+            self._stopping = True  # who is just coming in gets no view any more
+            left, self._pendants = [*self._pendants.values(), *self._leaving], {}
+        for pendant in left:  # of one whose browser leaves at this moment: waits until its worker has ended
+            self._end(pendant)
+        time.sleep(_THROUGH * bool(left))
         self._viser.stop()
 
     def _connected(self, client: viser.ClientHandle) -> None:
@@ -95,6 +99,8 @@ class PendantServer:
             look = Look.read(client.local_storage.get_item(LOOK, timeout=_ANSWER_WITHIN))
         except (RuntimeError, TimeoutError):  # gone again, or its storage is shut: then without a token
             token, look = None, Look()
+        if self._stopping or client.client_id not in self._viser.get_clients():
+            return
         session, how = self.hub.enter(token)
         if session.name != token:
             client.local_storage.set_item(_TOKEN, session.name)
@@ -103,8 +109,11 @@ class PendantServer:
             self._gone(client)
 
     def _show(self, client: viser.ClientHandle, session: Session, how: str, look: Look) -> None:
-        pendant = Pendant(client, session, self._world_of, self._shelf, look)
+        self.hub.claim(session.name)
         with self._lock:
+            if self._stopping:
+                return
+            pendant = Pendant(client, session, self._world_of, self._shelf, look)
             self._pendants[client.client_id] = pendant
         self.hub.show(session.name, pendant)
         pendant.greet(how)
@@ -131,11 +140,19 @@ class PendantServer:
     def _gone(self, client: viser.ClientHandle) -> None:
         with self._lock:
             pendant = self._pendants.pop(client.client_id, None)
-        if pendant is None:
-            return
+            if pendant is None:
+                return
+            self._leaving.append(pendant)
+        try:
+            self._end(pendant)
+        finally:
+            with self._lock:
+                self._leaving.remove(pendant)
+        del pendant
+        gc.collect()  # viser's handles hold each other in rings
+
+    def _end(self, pendant: Pendant) -> None:
         try:
             pendant.close()
         finally:
             self.hub.leave(pendant.session.name, pendant)
-        del pendant
-        gc.collect()  # viser's handles hold each other in rings

@@ -151,6 +151,24 @@ def test_a_drag_out_of_reach_says_so_and_the_arm_stays_within_its_limits(enter):
     assert np.array_equal(pendant.session.state.q, pendant.q)
 
 
+def test_a_second_tab_finds_the_arm_where_the_first_had_moved_it_and_keeps_it(enter, server):
+    browser, first = enter()
+    until(lambda: browser.token, "the token")
+    aim = first.q + 0.05
+    first.post(lambda: first.place(aim))  # not yet written down when the other comes
+    until(lambda: np.allclose(first.q, aim), "the arm to move")
+    _, second = enter(browser.token)
+    assert np.array_equal(second.q, first.q) and first._given.is_set()
+    second.post(lambda: second.place(second.q + 0.05))
+    assert second.worker.idle()
+    first.post(lambda: first.place(aim))  # what the first tab still sends is for nobody
+    browser.close()
+    until(lambda: first not in server.pendants, "the server to notice")
+    until(lambda: first not in server._leaving, "the first tab's end")
+    assert np.allclose(second.session.state.q, aim + 0.05)
+    assert np.array_equal(server.hub.store.state(second.session.name).q, second.q)
+
+
 def test_where_the_arm_was_left_is_written_when_the_browser_goes(enter, server):
     browser, pendant = enter()
     aim = pendant.q + 0.05
