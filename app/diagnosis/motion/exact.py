@@ -14,7 +14,7 @@ from app.diagnosis.motion.scoring import Solution, solve
 from app.diagnosis.motion.search import Term
 from app.diagnosis.motion.system import Group, System
 
-ITERATIONS = 4
+ITERATIONS = 10
 
 
 @dataclass(frozen=True, eq=False)

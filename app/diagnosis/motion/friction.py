@@ -1,8 +1,9 @@
 """A joint's friction chosen as a set.
 
-Dry, viscous and quadratic friction and the bump near standstill draw much the same curve of speed. Taken one by
-one, the second bends to mend the first: a bump of the wrong speed on quadratic friction stands where dry and viscous
-friction belong, and no single exchange leads out of it. The sets are few, so each is tried with its speeds scanned.
+Dry, viscous and quadratic friction, the bump near standstill and what fades as a joint warms up draw much the same
+curves. Taken one by one, the second bends to mend the first: a bump of the wrong speed on quadratic friction stands
+where dry and viscous friction belong, or friction that warms up for ever where dry friction does, and no single
+exchange leads out of it. The sets are few, so each is tried, one law's speed or time being scanned.
 """
 
 from __future__ import annotations
@@ -24,9 +25,10 @@ if TYPE_CHECKING:
 BETTER = 2.0  # another set must be worth this much
 #: Dry and viscous friction are in every joint: another law in their place must be a hundred times likelier.
 RARE = 9.2
-SHARES = np.geomspace(0.03, 1.5, 40)  # of the joint's usual speed, scanned
-FARTHEST = 0.1  # of the logarithm: from one speed of the scan to the next
+AROUND = (0.5, 3.0)  # times the lowest and the highest shape of the search's own grid: so far it is scanned
+FARTHEST = 0.1  # of the logarithm: from one shape of the scan to the next
 STEP = 1e-3
+TRIED = 8  # shapes of a family looked at, the best first
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,6 +40,7 @@ class _Scan:
         places: their columns; of a law with a shape, the second is its slope in the logarithm of the shape,
             so that between two speeds of the scan nothing is lost.
         raw: (c,) squared lengths of the columns; matrix (c, c), right (c,) projected.
+        own: so many leading groups are those there are now.
     """
 
     groups: list[Group]
@@ -45,17 +48,21 @@ class _Scan:
     raw: np.ndarray
     matrix: np.ndarray
     right: np.ndarray
+    own: int
 
-    def fit(self, chosen: list[int]) -> tuple[float, list[np.ndarray]]:
-        """Fall of the whitened sum of squares with some laws, and the coefficients of each."""
-        at = [c for k in chosen for c in self.places[k]]
-        M = self.matrix[np.ix_(at, at)]
-        scale = np.sqrt(np.maximum(np.diag(M), 1e-300))
-        M = M / scale / scale[:, None]
-        M[np.diag_indices_from(M)] += 1e-9
-        values = np.linalg.solve(M, self.right[at] / scale) / scale
-        sizes = np.cumsum([len(self.places[k]) for k in chosen])[:-1]
-        return float(values @ self.right[at]), np.split(values, sizes)
+    def fits(self, fixed: list[int], scanned: list[int]) -> tuple[np.ndarray, np.ndarray]:
+        """Falls of the whitened sum of squares (s,) and coefficients (s, p) of some laws with each of the scanned.
+
+        Args:
+            scanned: one law at several shapes; empty where only the fixed ones are fitted (s is then 1).
+        """
+        base = [c for k in fixed for c in self.places[k]]
+        at = np.array([[*base, *self.places[k]] for k in scanned] if scanned else [base])
+        M, right = self.matrix[at[:, :, None], at[:, None]], self.right[at]
+        scale = np.sqrt(np.maximum(np.diagonal(M, axis1=1, axis2=2), 1e-300))
+        M = M / scale[:, :, None] / scale[:, None] + 1e-9 * np.eye(at.shape[1])
+        values = np.linalg.solve(M, (right / scale)[..., None])[..., 0] / scale
+        return np.sum(values * right, axis=1), values
 
 
 def choose_friction(search: Search, terms: list[Term], stay: int = 0) -> list[Term]:
@@ -75,19 +82,18 @@ def _joint(search: Search, terms: list[Term], stay: int, joint: int) -> list[Ter
     others = [t.group for i, t in enumerate(terms) if i not in here]
     scan = _scan(search, others, [terms[i].group for i in here], joint)
     own = list(range(len(here)))
-    best, chosen = _worth(search, scan, own) + BETTER, own
-    for tried in _sets(scan.groups):
-        worth = _worth(search, scan, tried)
-        if worth > best:
-            best, chosen = worth, tried
+    best = _Choice(_best(search, scan, own, []).worth + BETTER, own, [])
+    for fixed, scanned in _families(scan.groups, len(own)):
+        best = max(best, _best(search, scan, fixed, scanned), key=lambda choice: choice.worth)
+    chosen = best.laws
     if chosen == own:
         return terms
     keep = {scan.groups[k].label: terms[i] for k, i in zip(own, here, strict=True)}
     weakest = max((terms[i] for i in here), key=lambda t: t.p_value)
     fresh = []
-    for k, values in zip(chosen, scan.fit(chosen)[1], strict=True):
+    for k, values in zip(chosen, best.values, strict=True):
         group, first = scan.groups[k], scan.places[k][0]
-        if group.shape:
+        if _bends(group):
             group = _registered(search, group, values)
         visible = float(np.sqrt(np.clip(scan.matrix[first, first] / max(scan.raw[first], 1e-300), 0.0, 1.0)))
         fresh.append(Term(group, keep.get(group.label, weakest).p_value, visible))
@@ -101,20 +107,14 @@ def _scan(search: Search, others: list[Group], own: list[Group], joint: int) -> 
     system = search.system
     part, whitener, samples = system.parts[joint], system.whiteners[joint], system.samples
     taken = {key_of(g) for g in others[search.known :]}
-    groups, seen = list(own), set()
+    groups = list(own)
+    taken |= {key_of(g) for g in own if not _bends(g)}
+    grids: dict[tuple, list[Group]] = {}
     for group in search.groups:
-        law = group.law
-        if group.joint != joint or not resists(group) or group.label in seen or key_of(group) in taken:
-            continue
-        assert law is not None
-        seen.add(group.label)
-        if not group.shape:
-            groups.append(group)
-            continue
-        name = next(iter(law.shape_bounds))
-        low, high = law.shape_bounds[name]
-        speeds = np.clip(SHARES * samples.state.speed[joint], low, high)
-        groups += [replace(group, shape={name: float(value)}) for value in speeds]
+        if group.joint == joint and resists(group) and key_of(group) not in taken:
+            grids.setdefault(key_of(group), []).append(group)
+    for grid in grids.values():
+        groups += _scanned(grid)
     columns = [whitener(samples.pool(_columns(samples.state, g))) for g in groups]
     ends = np.cumsum([0, *(c.shape[1] for c in columns)])
     places = [list(range(a, b)) for a, b in pairwise(ends.tolist())]
@@ -126,47 +126,89 @@ def _scan(search: Search, others: list[Group], own: list[Group], joint: int) -> 
     whole = C.T @ C
     right = C.T @ (part.columns[:, 0] - z @ solution.theta[pos])
     matrix = whole - cross @ solution.covariance[np.ix_(pos, pos)] @ cross.T
-    return _Scan(groups, places, np.diag(whole), matrix, right)
+    return _Scan(groups, places, np.diag(whole), matrix, right, len(own))
 
 
-def _sets(groups: list[Group]) -> list[list[int]]:
-    """Every choice of laws, each law once."""
+def _scanned(grid: list[Group]) -> list[Group]:
+    """A law at every shape from below its grid to above it; as it is where it has none to bend."""
+    law, name = grid[0].law, _bends(grid[0])
+    if law is None or not name:
+        return grid[:1]
+    values = [g.shape[name] for g in grid]
+    low, high = np.clip((AROUND[0] * min(values), AROUND[1] * max(values)), *law.shape_bounds[name])
+    count = int(np.log(high / low) / FARTHEST) + 2
+    return [replace(grid[0], shape={**grid[0].shape, name: float(v)}) for v in np.geomspace(low, high, count)]
+
+
+def _bends(group: Group) -> str:
+    """The shape that may bend, "" where there is none."""
+    return next((n for n in group.shape if group.law is not None and n in group.law.shape_bounds), "")
+
+
+def _families(groups: list[Group], own: int) -> list[tuple[list[int], list[int]]]:
+    """Every choice of laws, each law once: those as they are, and at most one that is scanned over its shapes.
+
+    Args:
+        own: so many leading groups are those there are now.
+    """
     by_label: dict[str, list[int]] = {}
     for k, group in enumerate(groups):
         by_label.setdefault(group.label, []).append(k)
-    out: list[list[int]] = [[]]
+    out: list[tuple[list[int], list[int]]] = [([], [])]
     for places in by_label.values():
-        out += [[*one, k] for one in out for k in places]
+        still = [k for k in places if k < own or not _bends(groups[k])]
+        moving = [k for k in places if k not in still]
+        more = [([*fixed, k], scanned) for fixed, scanned in out for k in still]
+        if moving:
+            more += [(fixed, moving) for fixed, scanned in out if not scanned]
+        out += more
     return out[1:]
 
 
-def _worth(search: Search, scan: _Scan, chosen: list[int]) -> float:
-    """Gain less what its parameters cost; minus infinity where an arm cannot have its values."""
-    penalty = np.log(max(search.system.rows, 3))
-    if not chosen:
-        return -np.inf
-    worth, values = scan.fit(chosen)
-    together = [scan.groups[k] for k in chosen]
-    for k, value in zip(chosen, values, strict=True):
-        group, first = scan.groups[k], scan.places[k][0]
-        assert group.law is not None
-        if scan.matrix[first, first] < LEAST_VISIBLE**2 * scan.raw[first]:
-            return -np.inf
-        if not search.change and not group.law.lawful(group.law.values(value[:1], group.shape)):
-            return -np.inf
-        worth -= penalty * (1 + len(group.shape)) + dear(group, together) + RARE * (not is_common(group))
-    return worth
+@dataclass(frozen=True, eq=False)
+class _Choice:
+    """Laws, what they are worth, and each one's coefficients."""
+
+    worth: float
+    laws: list[int]
+    values: list[np.ndarray]
+
+
+def _best(search: Search, scan: _Scan, fixed: list[int], scanned: list[int]) -> _Choice:
+    """The best of a family: gain less what its parameters cost; worth minus infinity where an arm cannot have it."""
+    gains, values = scan.fits(fixed, scanned)
+    together = [scan.groups[k] for k in [*fixed, *scanned[:1]]]
+    penalty = np.log(max(search.system.rows, 3)) * values.shape[1]
+    cost = penalty + sum(dear(g, together) + RARE * (not is_common(g)) for g in together)
+    for index in np.argsort(-gains)[:TRIED]:
+        laws = [*fixed, *scanned[index : index + 1]]
+        ends = np.cumsum([len(scan.places[k]) for k in laws])[:-1]
+        parts = np.split(values[index], ends)
+        if all(_possible(search, scan, k, part) for k, part in zip(laws, parts, strict=True)):
+            return _Choice(float(gains[index] - cost), laws, parts)
+    return _Choice(-np.inf, [], [])
+
+
+def _possible(search: Search, scan: _Scan, k: int, values: np.ndarray) -> bool:
+    """True where the log shows the law, its slope is good for its step, and an arm can have its values."""
+    group, first = scan.groups[k], scan.places[k][0]
+    if scan.matrix[first, first] < LEAST_VISIBLE**2 * scan.raw[first]:
+        return False
+    if k >= scan.own and len(values) > 1 and abs(values[1]) > 2 * FARTHEST * abs(values[0]):
+        return False
+    law = group.law
+    return search.change or (law is not None and law.lawful(law.values(values[:1], group.shape)))
 
 
 def _columns(state: State, group: Group) -> np.ndarray:
     """(m, 1), or (m, 2) with the slope in the logarithm of the shape."""
-    law = group.law
+    law, name = group.law, _bends(group)
     assert law is not None
     columns = law.columns(state, group.where, group.shape)
-    if not group.shape:
+    if not name:
         return columns
     up, down = (
-        law.columns(state, group.where, {name: value * np.exp(step) for name, value in group.shape.items()})
+        law.columns(state, group.where, {**group.shape, name: group.shape[name] * np.exp(step)})
         for step in (STEP, -STEP)
     )
     return np.concatenate([columns, (up - down) / (2 * STEP)], axis=1)
@@ -176,9 +218,9 @@ def _registered(search: Search, group: Group, values: np.ndarray) -> Group:
     """The group at the shape that its slope asks for, among the system's columns."""
     samples, law = search.system.samples, group.law
     assert law is not None
-    step = float(np.clip(values[1] / values[0], -FARTHEST, FARTHEST))
-    shape = {
-        name: float(np.clip(v * np.exp(step), *law.shape_bounds[name])) for name, v in group.shape.items()
-    }
+    name = _bends(group)
+    step = float(np.clip(values[1] / values[0], -2 * FARTHEST, 2 * FARTHEST))
+    value = float(np.clip(group.shape[name] * np.exp(step), *law.shape_bounds[name]))
+    shape = {**group.shape, name: value}
     group = replace(group, shape=shape, size=1, bent=False)
     return search.system.append(group, samples.pool(law.columns(samples.state, group.where, shape)))

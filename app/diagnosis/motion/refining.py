@@ -31,7 +31,7 @@ def refine(search: Search, terms: list[Term], stay: int = 0) -> list[Term]:
     terms = merge(terms, stay)
     for _ in range(PASSES):
         before = [t.group for t in terms]
-        terms = exchange(search, relocate(search, terms, stay), stay)
+        terms = exchange(search, reshape(search, relocate(search, terms, stay), stay), stay)
         terms = simplify(search, choose_friction(search, terms, stay), stay)
         if [t.group for t in terms] == before:
             break
@@ -70,6 +70,24 @@ def exchange(search: Search, terms: list[Term], stay: int = 0) -> list[Term]:
                 own = worth
             else:
                 _forget(system, group, board[index].group)
+    return terms
+
+
+def reshape(search: Search, terms: list[Term], stay: int = 0) -> list[Term]:
+    """Every law's shape once more, with all else in the model: it was bent before the laws beside it came in."""
+    for i in range(stay, len(terms)):
+        group = terms[i].group
+        if not _shaped(group) or group.label == "torque_ripple":
+            continue
+        others = [t.group for k, t in enumerate(terms) if k != i]
+        moved = bent(search.system, search.prior, others, group)
+        if moved is group:
+            continue
+        gains = [search.losses_without([*others, g])[-1] for g in (group, moved)]
+        if gains[1] > gains[0] + BETTER and search.possible(moved, others):
+            terms = [*terms[:i], replace(terms[i], group=moved), *terms[i + 1 :]]
+        else:
+            search.system.remove(moved)
     return terms
 
 

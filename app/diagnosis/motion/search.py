@@ -236,9 +236,8 @@ class _Bar:
 
 
 def resists(group: Group) -> bool:
-    """True for the laws of a joint's own speed that hold it back."""
-    law = group.law
-    return law is not None and law.driver == "speed" and bool(law.positive) and not law.shared
+    """True for the laws of a joint that hold it back by its own speed, warm or cold."""
+    return group.law is not None and group.law.resists
 
 
 def is_common(group: Group) -> bool:

@@ -44,6 +44,7 @@ class Law(ABC):
         follows_model: True where the columns are made of the predicted torque itself.
         corrected: True where the samples are corrected for it and looked at again.
         common: True where nearly every joint has it.
+        resists: True where it holds a joint back by the joint's own speed.
         within: key of a simpler law on the same joint that this one contains.
     """
 
@@ -60,6 +61,7 @@ class Law(ABC):
     follows_model = False
     corrected = False
     common = False
+    resists = False
     within = ""
 
     @abstractmethod

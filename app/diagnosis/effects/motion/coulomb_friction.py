@@ -18,6 +18,7 @@ class CoulombFriction(JointLaw):
     units: ClassVar = {"coulomb": "Nm"}
     linear = ("coulomb",)
     positive = ("coulomb",)
+    resists = True
     common = True
 
     def columns(self, state: State, where: Where, shape: Values) -> np.ndarray:

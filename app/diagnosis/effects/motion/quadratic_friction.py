@@ -18,6 +18,7 @@ class QuadraticFriction(JointLaw):
     units: ClassVar = {"quadratic": "Nm s^2/rad^2"}
     linear = ("quadratic",)
     positive = ("quadratic",)
+    resists = True
 
     def columns(self, state: State, where: Where, shape: Values) -> np.ndarray:
         qd = state.qd[:, joint_of(where), None]

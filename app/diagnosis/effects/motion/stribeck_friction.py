@@ -19,6 +19,7 @@ class StribeckFriction(JointLaw):
     linear = ("stribeck",)
     shape_bounds: ClassVar = {"stribeck_speed": (1e-3, 10.0)}
     positive = ("stribeck",)
+    resists = True
 
     def shapes(self, state: State, joint: int) -> list[Values]:
         return [{"stribeck_speed": share * float(state.speed[joint])} for share in (0.06, 0.12, 0.25, 0.45)]

@@ -18,6 +18,7 @@ class ViscousFriction(JointLaw):
     units: ClassVar = {"viscous": "Nm s/rad"}
     linear = ("viscous",)
     positive = ("viscous",)
+    resists = True
     common = True
 
     def columns(self, state: State, where: Where, shape: Values) -> np.ndarray:

@@ -22,6 +22,7 @@ class WarmupFriction(JointLaw):
     )
     units: ClassVar = {"cold": "Nm", "time_constant": "s", "per_degree": "Nm/degC", "warm": "degC"}
     linear = ("cold",)
+    resists = True
     shape_bounds: ClassVar = {"time_constant": (0.2, 1e5)}
 
     def places(self, state: State) -> list[Place]:
