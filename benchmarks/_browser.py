@@ -10,6 +10,8 @@ import msgspec
 import zstandard
 from websockets.sync.client import connect
 
+_TOKEN = "teachframe.session"
+
 
 class Browser:
     """Connected until `close`.
@@ -20,7 +22,7 @@ class Browser:
     """
 
     def __init__(self, port: int, token: str | None = None):
-        self.token = token
+        self._kept: dict[str, str | None] = {_TOKEN: token}
         self.received = 0
         self._socket = connect(
             f"ws://127.0.0.1:{port}",
@@ -46,6 +48,11 @@ class Browser:
             look_at=(0.0, 0.0, 0.0),
             up_direction=(0.0, 0.0, 1.0),
         )
+
+    @property
+    def token(self) -> str | None:
+        """The session this browser remembers now."""
+        return self._kept[_TOKEN]
 
     def send(self, kind: str, **fields: Any) -> None:
         """One message to the server."""
@@ -77,9 +84,9 @@ class Browser:
         if message["type"] == "LocalStorageGetItemRequestMessage":
             self.send(
                 "LocalStorageGetItemResponseMessage",
-                value=self.token,
+                value=self._kept.get(message["key"]),
                 error=None,
                 request_uuid=message["request_uuid"],
             )
         elif message["type"] == "LocalStorageSetItemMessage":
-            self.token = message["value"]
+            self._kept[message["key"]] = message["value"]

@@ -94,11 +94,8 @@ class PendantServer:
 
     def _connected(self, client: viser.ClientHandle) -> None:
         """Runs on a thread of viser's pool, because asking the browser for its token waits for the answer."""
-        try:
-            token = client.local_storage.get_item(_TOKEN, timeout=_ANSWER_WITHIN)
-            look = Look.read(client.local_storage.get_item(LOOK, timeout=_ANSWER_WITHIN))
-        except (RuntimeError, TimeoutError):  # gone again, or its storage is shut: then without a token
-            token, look = None, Look()
+        token = self._remembered(client, _TOKEN)
+        look = Look() if token is None else Look.read(self._remembered(client, LOOK))
         if self._stopping or client.client_id not in self._viser.get_clients():
             return
         session, how = self.hub.enter(token)
@@ -107,6 +104,14 @@ class PendantServer:
         self._show(client, session, how, look)
         if client.client_id not in self._viser.get_clients():  # left while the page was made
             self._gone(client)
+
+    @staticmethod
+    def _remembered(client: viser.ClientHandle, key: str) -> str | None:
+        """What a browser keeps under a name; None where it keeps nothing, is gone again, or its storage is shut."""
+        try:
+            return client.local_storage.get_item(key, timeout=_ANSWER_WITHIN)
+        except (RuntimeError, TimeoutError):
+            return None
 
     def _show(self, client: viser.ClientHandle, session: Session, how: str, look: Look) -> None:
         self.hub.claim(session.name)

@@ -74,7 +74,8 @@ class Keys:
 
             @command.on_trigger
             async def _(event: viser.CommandEvent, number: int = number) -> None:
-                pendant.post(lambda: self._choose(number))
+                self.axis = number  # at once: the key that moves it may come before the worker gets to say so
+                pendant.post(lambda: self._say(number))
 
     def _hear(self, jog: Jog) -> None:
         """A key came, pressed or repeated; on the event loop."""
@@ -97,8 +98,7 @@ class Keys:
         jogging.let_go()
         jogging.hear(jog, KEY_SILENCE)
 
-    def _choose(self, number: int) -> None:
-        self.axis = number
+    def _say(self, number: int) -> None:
         pendant = self._pendant
         known = pairs(pendant)
         if number < len(known):
