@@ -26,11 +26,8 @@ def halved(
     inverse, good = inverse_factors(matrices)
     # The largest eigenvalue of the inverse is no more than their sum.
     whole = possible & good & (np.einsum("cij,cij->c", inverse, inverse) * least < 1.0)
-    if whole.all():
-        return inverse @ blocks, np.full(len(blocks), size)
-    done, count = np.zeros_like(blocks), np.where(whole, size, 0)
-    at = np.flatnonzero(whole)
-    done[at] = inverse[at] @ blocks[at]
+    inverse[~whole] = 0.0
+    done, count = inverse @ blocks, np.where(whole, size, 0)
     if len(rest := np.flatnonzero(possible & ~whole)):
         values, vectors = np.linalg.eigh(matrices[rest])
         keep = values > least
