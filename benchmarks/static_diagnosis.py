@@ -11,6 +11,7 @@ os.environ.setdefault("OMP_NUM_THREADS", "1")  # before numpy is imported; one t
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 import tempfile
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -19,10 +20,12 @@ from scipy.spatial.transform import Rotation
 
 from app.diagnosis.static import diagnose
 from app.diagnosis.static.as_built import geometry_terms
-from app.diagnosis.static.fit import _stepped, fit
+from app.diagnosis.static.cell import pose
+from app.diagnosis.static.fit import apply_terms, fit
 from app.diagnosis.static.noise import component_rms
 from app.diagnosis.static.plain import plain_fit
 from app.diagnosis.static.reading import read_static
+from app.diagnosis.static.setup import moved, residual
 from app.kinematics import load_robot
 from benchmarks.rows import Row, quickest
 from tests.diagnosis.static.simulating import poses, term, tracker_rows, write_tracker
@@ -72,7 +75,14 @@ def _geometric_fits(folder: Path, robot) -> list[Row]:
     scale = np.linalg.norm(first.jacobian, axis=0)
 
     def whitened(x: np.ndarray) -> np.ndarray:
-        return _stepped(first, x / scale).white
+        """The residual alone, no columns: all that finite differences ask for."""
+        recording, step = first.recording, x / scale
+        setup = moved(first.setup, recording, step[: first.slices[0].start])
+        pairs = zip(first.terms, first.slices, strict=True)
+        terms = tuple(replace(term, values=term.values + step[at]) for term, at in pairs)
+        cell = apply_terms(recording.situation, terms)
+        posed = pose(recording.situation, cell, setup.tool_rows(recording))
+        return (residual(recording, posed, setup, cell) * first.weights).reshape(-1)
 
     def peer():
         return least_squares(whitened, np.zeros(first.jacobian.shape[1]), method="trf")

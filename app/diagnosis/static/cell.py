@@ -51,10 +51,10 @@ class Cell:
 
 
 def _added(array: np.ndarray, link: int, amount: np.ndarray) -> np.ndarray:
-    if not np.any(amount):
+    if not amount.any():
         return array
-    amount = np.atleast_2d(amount)
-    out = np.repeat(array, len(amount), axis=0) if len(amount) > len(array) else array.copy()
+    rows = len(amount) if amount.ndim == 2 else 1
+    out = np.repeat(array, rows, axis=0) if rows > len(array) else array.copy()
     out[:, link] += amount
     return out
 
