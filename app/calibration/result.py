@@ -20,6 +20,7 @@ class Warning_:
         message: what was seen, with its figures.
         advice: what to do next.
         severe: True where the result should not be accepted as it stands.
+        note: True where nothing is wrong with the result: it is only told.
         phrases: message and advice before they were put into words; () where they speak English only.
     """
 
@@ -27,6 +28,7 @@ class Warning_:
     message: str
     advice: str = ""
     severe: bool = False
+    note: bool = field(default=False, kw_only=True)
     phrases: tuple[Phrase, ...] = field(default=(), repr=False, compare=False)
 
     def __str__(self) -> str:

@@ -48,7 +48,7 @@ def calibrate(
         method: "joint", "pairwise" or "robust".
         orientation: "default", "z", "zx" or "xy"; None takes what the roles allow.
         least_turn: angular spread [rad] that cannot be told from none, from the rounding of the angles.
-        context: what checks may know besides (`tool_active`, `flange_disagreement`, …).
+        context: what checks may know besides (`tool_active`, `session_tool`, …).
 
     Raises:
         UnknownNameError: no such method or orientation.
@@ -95,7 +95,7 @@ def checked(
     found = []
     for check in catalog.members(CHECKS, "CHECK").values():
         found += check.look(result, captures, context or {})
-    return result.with_warnings(*sorted(found, key=lambda w: not w.severe))
+    return result.with_warnings(*sorted(found, key=lambda w: (not w.severe, w.note)))
 
 
 def allowed_orientation(captures: Sequence[Capture]) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from app.calibration.checks.tool_active import SessionTool
 from app.calibration.points import Points
 from app.calibration.quality.leave_one_out import leave_one_out
 from app.calibration.quality.light import light
@@ -32,12 +33,20 @@ def solve(state: SessionState) -> Solved:
             method=state.method,
             orientation=orientation,
             least_turn=least_turn(points),
-            context={"points": points},
+            context=_context(state, points),
         )
     effect = rounding(points, result)
     gaps = tuple(gap_to(name, stated, result, effect) for name, stated in points.references.items())
     left = leave_one_out(points.captures) if len(result.residual_vectors) else ()
     return Solved(points, result, effect, gaps, left, light(result))
+
+
+def _context(state: SessionState, points: Points) -> dict[str, Any]:
+    """What the checks may know besides the points."""
+    if state.tool is None:
+        return {"points": points}
+    tool = SessionTool(state.tool.name, state.tool.T_flange_tool, recorded=state.source is None)
+    return {"points": points, "session_tool": tool}
 
 
 def _options(state: SessionState, points: Points) -> dict[str, Any]:
@@ -51,7 +60,7 @@ def _options(state: SessionState, points: Points) -> dict[str, Any]:
             "angles": entered.angles,
             "angle_convention": entered.convention,
         }
-    options: dict[str, Any] = {"context": {"points": points}}
+    options: dict[str, Any] = {"context": _context(state, points)}
     if any("known" in c.roles for c in points.captures):
         if state.tool is None:
             raise refusal("no_known_tool")

@@ -153,3 +153,16 @@ def test_undo_leaves_the_user_frame_and_another_arm_has_none_yet():
     assert reduce(state, ChooseRobot("iiwa7")).user_frame is None
     with pytest.raises(ActionRefusedError):
         reduce(state, SetUserFrame((0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0)))
+
+
+def test_a_tool_active_while_points_are_recorded_is_named_and_the_light_stays_what_it_was(done):
+    state, world = done
+    first = state.result
+    assert "tool_active" not in {w.code for w in first.result.warnings}
+    state = reduce(reduce(state, Accept("torch 7")), Cancel())
+    for action in wizard_actions(world=world)[0][1:]:
+        state = reduce(state, action)
+    (told,) = [w for w in state.result.result.warnings if w.code == "tool_active"]
+    assert "torch 7" in told.message and told.note and not told.severe
+    assert state.result.light.colour == first.light.colour and state.result.light.reason == first.light.reason
+    assert np.array_equal(state.result.result.tool_point, first.result.tool_point)

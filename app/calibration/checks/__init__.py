@@ -26,7 +26,8 @@ class Check(Protocol):
     ) -> list[Warning_]:
         """What was found; [] where nothing is wrong.
 
-        `context` may hold: `points` (the file), `tool_active` (True or the active tool's name), `quiet`.
+        `context` may hold: `points` (the file), `tool_active` (True or the name of the tool the poses are of),
+        `session_tool` (the tool that is active where the points were solved, a `SessionTool`), `quiet`.
         """
         ...
 

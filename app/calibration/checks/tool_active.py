@@ -1,4 +1,7 @@
-"""A tool was still active while teaching: the controller showed its tip, not the flange."""
+"""A tool was still active while teaching: the controller showed its tip, not the flange.
+
+Where the session says which tool is active, it is named; points that were kept as flange poses all the same are none
+the worse for it, and that is only told."""
 
 from __future__ import annotations
 
@@ -12,11 +15,31 @@ from app.calibration.captures import Capture, of_role
 from app.calibration.points import ANGLE_TOLERANCE, POSITION_TOLERANCE, Points
 from app.calibration.result import ToolCalibration, Warning_
 from app.calibration.wording import remark
-from app.geometry import angle_between
+from app.geometry import Pose, angle_between
 from app.units import from_mm, mm
 
 #: Tools shorter than this are suspicious: the "flange" hardly moved although it turned [m].
 SHORT = from_mm(10.0)
+
+
+@dataclass(frozen=True, eq=False)
+class SessionTool:
+    """The tool that is active in the controller while the points are solved.
+
+    Args:
+        name: what it is called there.
+        T_flange_tool: where it is.
+        recorded: True where the points were recorded there, as flange poses, while it was active.
+    """
+
+    name: str
+    T_flange_tool: Pose
+    recorded: bool
+
+    @property
+    def is_flange(self) -> bool:
+        """True for a tool that is none."""
+        return bool(np.allclose(self.T_flange_tool.matrix, np.eye(4), atol=1e-9))
 
 
 @dataclass(frozen=True)
@@ -30,13 +53,24 @@ class ToolActive:
         if active:
             named = isinstance(active, str)
             return [remark(self.key, "tool_active_named" if named else "", severe=True, tool=active)]
+        tool: SessionTool | None = context.get("session_tool")
+        if tool is not None and tool.is_flange:
+            tool = None
+        name = "" if tool is None else tool.name
         offset = constant_offset(context.get("points"))
         if offset is not None and np.linalg.norm(offset) > POSITION_TOLERANCE:
             text = ", ".join(f"{v:.1f}" for v in mm(offset))
-            return [remark(self.key, "tool_active_offset", severe=True, offset=text)]
+            theirs = tool is not None and (
+                np.linalg.norm(tool.T_flange_tool.position - offset) <= POSITION_TOLERANCE
+            )
+            key = "tool_active_offset_of" if theirs else "tool_active_offset"
+            return [remark(self.key, key, severe=True, offset=text, tool=name)]
         length = float(np.linalg.norm(result.tool_point))
         if of_role(captures, "touch") and length < SHORT:
-            return [remark(self.key, "tool_active_short", severe=True, length=mm(length))]
+            key = "tool_active_short" if tool is None else "tool_active_short_of"
+            return [remark(self.key, key, severe=True, length=mm(length), tool=name)]
+        if tool is not None and tool.recorded and captures and not of_role(captures, "known"):
+            return [remark(self.key, "tool_active_flange", note=True, tool=name)]
         return []
 
 

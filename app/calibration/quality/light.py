@@ -79,8 +79,8 @@ def light(result: ToolCalibration, limits: Limits | None = None) -> Light:
         return shown("yellow", "mean", "again_or_add")
     if longest > limits.region_yellow:
         return shown("yellow", "region", "add")
-    if result.warnings:
-        return _warned("yellow", result.warnings[0], "light.look")
+    if look := [w for w in result.warnings if not w.note]:
+        return _warned("yellow", look[0], "light.look")
     if not len(result.residual_vectors):
         return shown("yellow", "unmeasured", "verify")
     return shown("green", "good", "accept")

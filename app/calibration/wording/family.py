@@ -24,12 +24,14 @@ class Family:
         """A sentence that is not in words yet."""
         return Phrase(self.texts, key, fields)
 
-    def remark(self, code: str, key: str = "", *, severe: bool = False, **fields: Any) -> Warning_:
+    def remark(
+        self, code: str, key: str = "", *, severe: bool = False, note: bool = False, **fields: Any
+    ) -> Warning_:
         """A check's finding: the texts `check.KEY` and `check.KEY_do` with the same fields; `key` is the code's own
         where it is not given."""
         seen = self.phrase(f"check.{key or code}", **fields)
         todo = self.phrase(f"check.{key or code}_do", **fields)
-        return Warning_(code, str(seen), str(todo), severe, phrases=(seen, todo))
+        return Warning_(code, str(seen), str(todo), severe, note=note, phrases=(seen, todo))
 
     def degenerate(
         self,

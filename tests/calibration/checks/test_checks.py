@@ -5,7 +5,9 @@ import pytest
 
 from app.calibration.captures import Capture
 from app.calibration.checks import refusal
+from app.calibration.checks.tool_active import SessionTool
 from app.calibration.modes import modes
+from app.calibration.points import read_points
 from app.calibration.solving import solve_file
 from app.calibration.tool import calibrate
 from app.errors import DegenerateGeometryError
@@ -242,3 +244,24 @@ def test_poses_that_are_a_tools_instead_of_the_flanges_are_named_by_that_tool(tm
     result = solve_file(path).result
     assert "(0.0, 10.0, 120.0) mm" in said(result, "tool_active").message
     assert "joints_disagree" not in codes(result)
+
+
+def test_the_sessions_active_tool_is_named_where_the_poses_are_its_own(tmp_path):
+    tool = Pose.of(rot_x(0.3), np.array([0.0, 0.01, 0.12]))
+    points = read_points(both(tmp_path, lambda i, pose: pose @ tool))
+    for name, pose in (("torch", tool), ("another", Pose.of(None, np.array([0.0, 0.0, 0.3])))):
+        context = {"points": points, "session_tool": SessionTool(name, pose, recorded=False)}
+        message = said(calibrate(points.captures, context=context), "tool_active").message
+        assert ("torch" in message) == (name == "torch") and "another" not in message
+
+
+def test_the_sessions_active_tool_is_named_where_poses_turn_about_the_tip():
+    rotations, positions = touches(5, 0.6, NOISE)
+    active = SessionTool("torch", Pose.of(None, TOOL), recorded=False)
+    result = calibrate(captures(rotations, positions + rotations @ TOOL), context={"session_tool": active})
+    assert "torch" in said(result, "tool_active").message and said(result, "tool_active").severe
+
+
+def test_a_tool_that_is_the_flange_is_not_mentioned():
+    flange = SessionTool("tool 0", Pose.identity(), recorded=True)
+    assert not codes(calibrate(captures(*touches(5, 0.6)), context={"session_tool": flange}))

@@ -116,7 +116,10 @@ def _remarks(pendant: Pendant, solved: Solved) -> list[tuple[str, str]]:
     """Warnings first, then what the written digits explain."""
     t, result, effect = pendant.t, solved.result, solved.rounding
     out = [
-        ("red" if w.severe else "yellow", named(name_of(w.code, pendant.language), w.said(pendant.language)))
+        (
+            "red" if w.severe else "blue" if w.note else "yellow",
+            named(name_of(w.code, pendant.language), w.said(pendant.language)),
+        )
         for w in result.warnings
     ]
     sigma = mm(effect.sigma_tool)
