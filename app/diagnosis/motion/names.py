@@ -96,7 +96,8 @@ def judge(
     for i in np.flatnonzero(_uncertain(search, fit, done, len(everything))).tolist():
         why[i] = why[i] or reason("uncertain")
     _own_angle(fit.terms, why)
-    for i, imitated in imitators(search, fit.terms).items():
+    response = search.system.samples.y - fit.offset
+    for i, imitated in imitators(search, fit.terms, response, done).items():
         why[i] = why[i] or imitated
     _followers(fit.terms, gains, why)
     reasons += remark_of_reasons(

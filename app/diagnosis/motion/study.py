@@ -117,7 +117,8 @@ def examine(
     tell(0.85, "names")
     stated, moved = None, noise_of_motion(robot, samples)
     if log.stated_noise is not None:
-        stated = np.sqrt(log.stated_noise**2 / samples.window + moved**2)
+        recorded = log.stated_noise / np.abs(1.0 + corrections.scale)  # in the torque that was meant
+        stated = np.sqrt(recorded**2 / samples.window + moved**2)
     if base and stated is not None:
         stated = None if referred.startswith("the reference follows the same") else stated
     done = corrected_by(corrections, first, fit)

@@ -153,3 +153,15 @@ def test_only_what_changed_since_the_reference_is_named(tmp_path):
     assert [(f.effect, f.where["joint"]) for f in found.findings] == [("viscous_friction", 4)]
     value = found.findings[0].parameters[0]
     assert abs(value.value - 1.0) < SIGMAS * value.std
+
+
+def test_a_torque_recorded_by_a_wrong_factor_is_named_whatever_else_would_imitate_its_remainder(tmp_path):
+    def change(run):
+        run.torque[:, 3] *= 0.7
+
+    found = _case(tmp_path, 31, change)
+    (finding,) = found.findings
+    assert (finding.effect, finding.where["joint"]) == ("torque_constant", 4)
+    (scale,) = finding.parameters
+    assert abs(scale.value + 0.3) < SIGMAS * scale.std
+    assert found.verdict == "named"
