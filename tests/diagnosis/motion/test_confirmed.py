@@ -29,7 +29,12 @@ def _late(run):
     run.torque[:] = np.stack([np.interp(run.t - 0.02, run.t, c) for c in run.torque.T], axis=1)
 
 
-@pytest.mark.parametrize("change", [_unknown, _load, _late])
+def _factor(run):
+    run.torque[:, 3] += 0.9 * np.sign(run.qd[:, 3])
+    run.torque[:, 1] *= 1.25
+
+
+@pytest.mark.parametrize("change", [_unknown, _load, _late, _factor])
 def test_the_saved_model_leaves_what_the_diagnosis_left(tmp_path, change):
     robot, rng = load_robot("ur10e"), np.random.default_rng(21)
     run = swing(robot, rng, samples=1500)
