@@ -15,8 +15,8 @@ from app.units import mm
 
 #: Nothing that holds one tool frame is larger [bytes].
 LARGEST = 1_000_000
-#: A number as all these formats write it.
-NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
+#: A number as all these formats write it; taken whole or not at all, else a row of digits is tried in every way.
+NUMBER = r"(?>[-+]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][-+]?\d+)?)"
 LONGEST_NAME = 24
 #: No tool is longer [m], and no number of an orientation larger.
 _FARTHEST, _LARGEST_NUMBER = 1e3, 1e6

@@ -20,14 +20,16 @@ from app.geometry import convention
 from app.units import deg, from_deg, from_mm, mm
 
 _PARTS = "XYZWPR"
-_GAP = r"\s*[:=]\s*(" + NUMBER + r")\s*(?:mm|deg)?\s*,?\s*"
+_GAP = r"\s*[:=]\s*(" + NUMBER + r")\s*(?:(?:mm|deg)\s*)?(?:,\s*)?"
 _FRAME = re.compile("".join(rf"\b{part}{_GAP}" for part in _PARTS))
 _LISTED = re.compile(r"\$MNUTOOL\b")
 _OTHER = re.compile(r"\[\*SYSTEM\*\]")
 _SET = re.compile(r"\bUTOOL\s*\[[^\]]*\]\s*=\s*PR\s*\[\s*(\d+)")
 _COPIED = r"\bPR\s*\[\s*{register}\s*(?::[^\]]*)?\]\s*=\s*P\s*\[\s*(\d+)"
 _PART = r"\bPR\s*\[\s*{register}\s*,\s*([1-6])\s*(?::[^\]]*)?\]\s*=\s*\(?\s*(" + NUMBER + r")"
-_NAME = re.compile(r"\$TOOLNAME.*?'([^'\n]*)'|Comment:\s*'([^'\n]*)'|^\s*\d*\s*:\s*!tool (\w+)", re.MULTILINE)
+_NAME = re.compile(
+    r"\$TOOLNAME.*?'([^'\n]*)'|Comment:\s*'([^'\n]*)'|^[ \t]*(?:\d+[ \t]*)?:\s*!tool (\w+)", re.MULTILINE
+)
 #: The last register of most controllers; what stood in it is lost, the program says so.
 _REGISTER = 100
 

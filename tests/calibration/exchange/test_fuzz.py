@@ -1,5 +1,8 @@
 """Whatever stands in a tool frame's text, only the project's own errors come out, in one line."""
 
+import contextlib
+import time
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -9,6 +12,8 @@ from app.calibration.exchange import ToolFrame, exchange_format, formats
 from app.errors import TeachframeError
 from tests.calibration.exchange.test_every_format import EXPECTED, MORE_TEXTS, TEXTS
 from tests.calibration.fuzzing import EXAMPLES, mangled
+
+SOON_S = 1.0  # a search that tries every way of cutting a row takes minutes
 
 #: Good texts of every format, to be spoilt.
 GOOD = {
@@ -35,6 +40,19 @@ def test_whatever_stands_in_a_text_only_the_projects_errors_come_out(key, data):
     else:
         assert np.isfinite(found.pose.matrix).all()
         np.testing.assert_allclose(found.pose.rotation.T @ found.pose.rotation, np.eye(3), atol=1e-2)
+
+
+@pytest.mark.parametrize("piece", ["0" * 400, " " * 400, "\n" * 400])
+@pytest.mark.parametrize("key", formats())
+def test_a_long_row_of_digits_or_blanks_anywhere_takes_no_time(key, piece):
+    form, begun = exchange_format(key), time.process_time()
+    for good in GOOD[key]:
+        for at in range(0, len(good), 9):
+            text = good[:at] + piece + good[at:]
+            form.knows(text)
+            with contextlib.suppress(TeachframeError):
+                form.read(text)
+    assert time.process_time() - begun < SOON_S
 
 
 def test_the_readers_are_given_ten_thousand_texts_a_run():
