@@ -10,6 +10,8 @@ import math
 
 MM_PER_M = 1000.0
 UM_PER_M = 1.0e6
+MM_PER_CM = 10.0
+MM_PER_INCH = 25.4
 DEG_PER_RAD = 180.0 / math.pi
 
 #: Suffix of a column or parameter -> factor that brings its values to SI.

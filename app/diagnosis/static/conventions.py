@@ -12,7 +12,7 @@ from app.diagnosis.static.recording import StaticRecording
 from app.diagnosis.wording import note
 from app.kinematics import RobotModel
 from app.phrases import Said
-from app.units import DEG_PER_RAD, MM_PER_M
+from app.units import DEG_PER_RAD, MM_PER_CM, MM_PER_INCH, MM_PER_M
 
 SIGN, SWAP, QUARTER, ANGLE_UNIT, LENGTH_UNIT, INVERSE = (float(i) for i in range(6))
 #: The kinds, the one that people mix up most first.
@@ -21,6 +21,13 @@ LIKELIHOOD = (SIGN, INVERSE, ANGLE_UNIT, LENGTH_UNIT, QUARTER, SWAP)
 HARDLY, TURNS = 0.2, 4.0 * np.pi
 #: A convention must take this share of the misfit away before it is believed.
 FALL = 1.0 / 3.0
+#: Factor that brings lengths to the unit their column states -> what was mixed up.
+_LENGTH_UNITS = {
+    MM_PER_M: "convention_length_unit",
+    1.0 / MM_PER_M: "convention_length_unit",
+    MM_PER_CM: "convention_centimetres",
+    MM_PER_INCH: "convention_inches",
+}
 
 
 @dataclass(frozen=True)
@@ -72,7 +79,7 @@ def title_of(place: Place) -> Said:
     if kind == ANGLE_UNIT:
         return note("convention_angle_unit")
     if kind == LENGTH_UNIT:
-        return note("convention_length_unit")
+        return note(_LENGTH_UNITS[fixed["factor"]])
     return note("convention_inverse")
 
 
@@ -91,7 +98,7 @@ def conventions(recording: StaticRecording) -> Iterator[Convention]:
         for factor in factors:
             yield Convention(Place({"body": "instrument"}, {"kind": ANGLE_UNIT, "factor": factor}))
     if recording.mode != "targets":
-        for factor in (MM_PER_M, 1.0 / MM_PER_M):
+        for factor in _LENGTH_UNITS:
             yield Convention(Place({"body": "instrument"}, {"kind": LENGTH_UNIT, "factor": factor}))
     for j in joints:
         if not prismatic[j - 1]:

@@ -107,10 +107,11 @@ def _scaled_misfit(fitted: Fitted, original: StaticRecording) -> float:
     """A misfit in the units as they should be is compared with one in the units as written."""
     rms = _misfit(fitted)
     moved = fitted.recording.points is not original.points or fitted.recording.lengths is not original.lengths
-    if moved:  # lengths in another unit
-        rms *= _spread(original.points, original.lengths) / _spread(
+    if moved:  # lengths in another unit: smaller both by the instrument's measure and by the arm's
+        ratio = _spread(original.points, original.lengths) / _spread(
             fitted.recording.points, fitted.recording.lengths
         )
+        rms *= max(ratio, 1.0)
     chain = original.situation.chain  # angles that hardly move fit anything
     travel = [
         np.std(chain.frames(q).flange_positions, axis=0).max() for q in (original.q, fitted.recording.q)
