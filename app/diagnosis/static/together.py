@@ -15,8 +15,11 @@ from app.diagnosis.static.fit import Fitted, Term, fit
 from app.diagnosis.static.library import Candidate
 from app.diagnosis.static.looking import LEAST_VISIBLE, at_bound, key_of, new_term
 from app.diagnosis.static.noise import weights_from
-from app.diagnosis.static.ranking import TRIES, by_rank
+from app.diagnosis.static.ranking import by_rank
 from app.diagnosis.static.score import Scores
+
+#: Laws that are put in for a trial before it is given up.
+FIRSTS = 3
 
 Taken = tuple[Fitted, float]
 Take = Callable[[Fitted, Scores, Chance], Taken | None]
@@ -31,8 +34,8 @@ def two_at_once(now: Fitted, scores: Scores, chance: Chance, take: Take) -> tupl
     """
     present = {key_of(term.effect.key, term.where) for term in now.terms}
     tried: set[tuple] = set()
-    for index in by_rank(scores.order(), scores)[:TRIES]:
-        if not scores.p_value(index) <= chance.level:
+    for index in by_rank(scores.order(), scores):
+        if not scores.p_value(index) <= chance.level or len(tried) == FIRSTS:
             return None
         first = scores.candidates[index]
         if (

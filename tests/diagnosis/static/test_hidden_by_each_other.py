@@ -57,3 +57,11 @@ def test_targets_whose_names_were_mixed_up_are_no_base_that_moved_half_a_metre(a
     found = diagnose(table, arm)
     shifts = [p.value for f in found.findings for p in f.parameters if f.effect == "base_shift"]
     assert all(abs(value) <= mm(0.1) for value in shifts)
+
+
+def test_a_gear_cannot_run_out_by_a_whole_radian(arm, tmp_path):
+    rng = np.random.default_rng(14)
+    q = poses(arm, rng, 60)
+    points = tracker_rows(arm, q, rng=rng)
+    found = diagnose(write_tracker(tmp_path / "s.csv", arm, q, points[rng.permutation(60)]), arm)
+    assert found.findings == ()

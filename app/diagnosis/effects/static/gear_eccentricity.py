@@ -14,6 +14,9 @@ from app.diagnosis.static.effect import (
     joints,
 )
 
+#: rad: a gear that ran out by more could not turn.
+_LARGEST = 0.2
+
 
 class GearEccentricity(StaticEffect):
     key = "gear_eccentricity"
@@ -31,7 +34,7 @@ class GearEccentricity(StaticEffect):
 
     def quantities(self, situation, place):
         unit = angle_unit(situation, place.where["joint"])
-        return (Quantity("sin", unit), Quantity("cos", unit))
+        return tuple(Quantity(name, unit, lower=-_LARGEST, upper=_LARGEST) for name in ("sin", "cos"))
 
     def apply(self, cell, situation, place, values):
         return cell.add_joint(place.where["joint"] - 1, _waves(situation, place) @ values)
