@@ -113,4 +113,4 @@ def test_a_server_that_does_not_answer_is_said_in_one_line_without_the_password(
 
 
 def test_nothing_the_page_confirmed_is_lost_when_the_server_is_killed(tmp_path, url):
-    assert killed_while_teaching(tmp_path, url, KILLS // 2) > KILLS // 2
+    assert killed_while_teaching(tmp_path, url, KILLS // 2) >= KILLS // 2
