@@ -21,13 +21,8 @@ LIKELIHOOD = (SIGN, INVERSE, ANGLE_UNIT, LENGTH_UNIT, QUARTER, SWAP)
 HARDLY, TURNS = 0.2, 4.0 * np.pi
 #: A convention must take this share of the misfit away before it is believed.
 FALL = 1.0 / 3.0
-#: Factor that brings lengths to the unit their column states -> what was mixed up.
-_LENGTH_UNITS = {
-    MM_PER_M: "convention_length_unit",
-    1.0 / MM_PER_M: "convention_length_unit",
-    MM_PER_CM: "convention_centimetres",
-    MM_PER_INCH: "convention_inches",
-}
+#: What brings lengths to the unit their column states, likeliest first.
+_LENGTH_FACTORS = (MM_PER_M, 1.0 / MM_PER_M, MM_PER_CM, MM_PER_INCH)
 
 
 @dataclass(frozen=True)
@@ -79,7 +74,11 @@ def title_of(place: Place) -> Said:
     if kind == ANGLE_UNIT:
         return note("convention_angle_unit")
     if kind == LENGTH_UNIT:
-        return note(_LENGTH_UNITS[fixed["factor"]])
+        if fixed["factor"] == MM_PER_INCH:
+            return note("convention_inches")
+        if fixed["factor"] == MM_PER_CM:
+            return note("convention_centimetres")
+        return note("convention_length_unit")
     return note("convention_inverse")
 
 
@@ -98,7 +97,7 @@ def conventions(recording: StaticRecording) -> Iterator[Convention]:
         for factor in factors:
             yield Convention(Place({"body": "instrument"}, {"kind": ANGLE_UNIT, "factor": factor}))
     if recording.mode != "targets":
-        for factor in _LENGTH_UNITS:
+        for factor in _LENGTH_FACTORS:
             yield Convention(Place({"body": "instrument"}, {"kind": LENGTH_UNIT, "factor": factor}))
     for j in joints:
         if not prismatic[j - 1]:
