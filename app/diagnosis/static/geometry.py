@@ -10,6 +10,8 @@ from app.kinematics import Chain
 
 AXES = ("d", "a", "alpha", "beta")
 _PARALLEL = 1e-6  # sine of the angle between two axes below which they have no single common normal
+#: m: axes that pass each other closer than this cross; x is then z times the next axis, whatever rounding says.
+_CROSSING = 1e-6
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,7 +30,8 @@ class LinkAxes:
 def link_axes(chain: Chain) -> LinkAxes:
     """d: along joint k's axis z. a, alpha: along x, the common normal of the axes k and k+1. beta: y = z' x x.
 
-    Where the axes are parallel x points from one to the other; where they coincide any perpendicular serves.
+    x points from the first to the second; where they cross it is z times the next axis, and where they coincide
+    any perpendicular serves.
     The last link's next axis is the flange's Z.
 
     Source: Denavit, Hartenberg (1955); Hayati (1983) for beta.
@@ -47,7 +50,7 @@ def link_axes(chain: Chain) -> LinkAxes:
         if np.linalg.norm(x) < _PARALLEL:
             x = np.cross(z, np.eye(3)[np.argmin(np.abs(z))])
         x = x / np.linalg.norm(x)
-        if x @ translation < 0:
+        if x @ translation < -_CROSSING:
             x = -x
         y = np.cross(following, x)
         vectors[k] = np.stack([z, x, x, y]) @ rotation  # into the next placement's frame

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from app.diagnosis.static.fit import Fitted, Term
@@ -10,6 +12,8 @@ from app.diagnosis.static.score import Basis, Scores, basis, score_library
 
 #: Share of an effect's signature that base, tool and the rest must leave for it to be named.
 LEAST_VISIBLE = 0.05
+#: Rows between two steps of one kind that are strays rather than a time of their own.
+STRAY_ROWS = 2
 
 
 def new_term(candidate: Candidate, fitted: Fitted) -> Term:
@@ -38,6 +42,20 @@ def with_ghosts(pose: np.ndarray, ghosts: int) -> np.ndarray:
 def key_of(key: str, where) -> tuple:
     """Identity of a finding for "is it in already": steps of one kind may recur at another row."""
     return (key, *sorted((k, v) for k, v in where.items()))
+
+
+def taken_already(candidate: Candidate, terms: Sequence[Term]) -> bool:
+    """True where the candidate is in, or a step of its kind a row or two away: what lies between is a stray row."""
+    key, row = _without_row(candidate.effect.key, candidate.place.where)
+    for term in terms:
+        other, begins = _without_row(term.effect.key, term.where)
+        if other == key and (row == begins or (row and begins and abs(row - begins) <= STRAY_ROWS)):
+            return True
+    return False
+
+
+def _without_row(key: str, where) -> tuple[tuple, int | None]:
+    return key_of(key, {k: v for k, v in where.items() if k != "from_row"}), where.get("from_row")
 
 
 def at_bound(fitted: Fitted, index: int) -> bool:

@@ -14,8 +14,8 @@ from app.diagnosis.static.library import Candidate
 from app.diagnosis.static.looking import (
     LEAST_VISIBLE,
     at_bound,
-    key_of,
     new_term,
+    taken_already,
     with_ghosts,
     without,
 )
@@ -96,16 +96,12 @@ def take(now: Fitted, scores: Scores, chance: Chance) -> tuple[Fitted, float] | 
     Args:
         scores: of the library on what `now` leaves.
     """
-    present = {key_of(term.effect.key, term.where) for term in now.terms}
     for index in by_rank(scores.order(), scores)[:TRIES]:
         p_value = scores.p_value(index)
         if not p_value <= chance.level:
             return None
         candidate = scores.candidates[index]
-        if (
-            scores.visible[index] < LEAST_VISIBLE
-            or key_of(candidate.effect.key, candidate.place.where) in present
-        ):
+        if scores.visible[index] < LEAST_VISIBLE or taken_already(candidate, now.terms):
             continue
         trial = fit(
             now.recording, now.setup, (*now.terms, new_term(candidate, now)), now.weights, held=now.held

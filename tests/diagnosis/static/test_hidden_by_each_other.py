@@ -65,3 +65,13 @@ def test_a_gear_cannot_run_out_by_a_whole_radian(arm, tmp_path):
     points = tracker_rows(arm, q, rng=rng)
     found = diagnose(write_tracker(tmp_path / "s.csv", arm, q, points[rng.permutation(60)]), arm)
     assert found.findings == ()
+
+
+def test_a_stray_row_at_a_step_is_set_aside_and_makes_no_second_step(arm, tmp_path):
+    rng = np.random.default_rng(15)
+    q = poses(arm, rng, 60)
+    points = tracker_rows(arm, q, (SHIFT,), rng=rng, noise=0.05)
+    points[31] += 3e-3
+    found = diagnose(write_tracker(tmp_path / "s.csv", arm, q, points, noise=0.05), arm)
+    assert [f.effect for f in found.findings] == ["base_shift"]
+    assert len(found.outliers) == 1
