@@ -10,8 +10,12 @@ from app.diagnosis.wording import note
 from app.units import mm
 
 
-def remarks(outcome: Outcome, noise: Noise, hopeless: bool, excess: bool) -> tuple[str, ...]:
-    """Notes on masses, noise, geometry, outliers and misfits."""
+def remarks(outcome: Outcome, noise: Noise, hopeless: bool, excess: bool, crowd: int = 0) -> tuple[str, ...]:
+    """Notes on masses, noise, geometry, outliers and misfits.
+
+    Args:
+        crowd: number of findings where they are too many to be believed, else 0.
+    """
     recording, plan = outcome.written.recording, outcome.plan
     found = plan.found.fitted
     out = []
@@ -29,6 +33,8 @@ def remarks(outcome: Outcome, noise: Noise, hopeless: bool, excess: bool) -> tup
         out.append(note("as_built", spread=mm(spread_of(found))))
     if outcome.outliers.any():
         out.append(note("outliers", count=int(outcome.outliers.sum())))
+    if crowd:
+        out.append(note("crowd", count=crowd))
     if hopeless:
         out.append(note("hopeless", left=mm(position_rms(outcome.before))))
     elif excess:

@@ -27,6 +27,8 @@ from app.kinematics import RobotModel
 
 #: Share of a hopeless misfit that findings may leave and still be given.
 _LEAVES = 0.01
+#: So many laws at once are likelier an approximation of one that has no name here.
+CROWD = 5
 #: m: an arm whose every length is off by this is another arm.
 _ANOTHER = 0.02
 
@@ -48,7 +50,8 @@ def conclude(robot: RobotModel, outcome: Outcome, tick, began: float) -> Diagnos
     known = known_noise(recording)
     noise = noise_of(found.recording, known, found)
     excess = beyond_noise(found, known)
-    left = hopeless or excess or contested or _structure(plan, findings)
+    crowd = len(standing) >= CROWD
+    left = hopeless or excess or contested or crowd or _structure(plan, findings)
     said = {key_of(f.effect, f.where) for f in findings}
     kept = {id(t) for t in found.terms if (t.tacit and not hopeless) or key_of(t.effect.key, t.where) in said}
     model = saved_model(found, robot.name, recording.file, outcome.written, kept)
@@ -63,10 +66,10 @@ def conclude(robot: RobotModel, outcome: Outcome, tick, began: float) -> Diagnos
         after=after,
         findings=findings,
         outliers=tuple(int(r) for r in recording.rows[outcome.outliers]),
-        leftover=leftover_said(plan, hopeless or excess or contested),
+        leftover=leftover_said(plan, hopeless or excess or contested or crowd),
         next_poses=next_poses(robot, found, findings, wanted),
         seconds=clock.perf_counter() - began,
-        notes=(*recording.notes, *remarks(outcome, noise, hopeless, excess)),
+        notes=(*recording.notes, *remarks(outcome, noise, hopeless, excess, len(standing) if crowd else 0)),
         model=msgspec.to_builtins(model),
         evidence=evidence_of(recording, outcome),
     )

@@ -203,3 +203,17 @@ def test_next_poses_lie_within_limits(arm, tmp_path):
     hidden = term("gear_eccentricity", {"joint": 5, "driver": "own_angle"}, [4e-4, 3e-4])
     found = diagnose(_recorded(arm, tmp_path, 151, (hidden,), rows=30), arm)
     assert all(arm.within_limits(np.array(q)) for q in found.next_poses)
+
+
+def test_five_laws_at_once_are_said_to_be_too_many_to_be_sure_of(arm, tmp_path):
+    hidden = (
+        term("backlash", {"joint": 2, "driver": "approach"}, 3e-3),
+        term("gear_ratio", {"joint": 3, "driver": "own_angle"}, 2e-3),
+        term("joint_coupling", {"joint": 5, "source_joint": 4}, 4e-3),
+        term("joint_slip", {"joint": 4, "from_row": 60}, 4e-3),
+        term("link_length", {"link": 2, "axis": "a"}, 1.5e-3),
+    )
+    found = diagnose(_recorded(arm, tmp_path, 808, hidden, rows=120), arm)
+    assert len(found.findings) >= 5
+    assert found.verdict == "partly"
+    assert any("laws at once" in note for note in found.notes)
