@@ -9,7 +9,6 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from app.diagnosis.result import Leftover
-from app.diagnosis.static.alternatives import MARGIN
 from app.diagnosis.static.as_built import evidence, fit_as_built, relearnt
 from app.diagnosis.static.doubts import Doubt, doubt_of, leftover_doubt, stand_in
 from app.diagnosis.static.fit import Fitted, fit
@@ -76,9 +75,13 @@ class Plan:
     def sound(self) -> bool:
         return self.doubt is None and self.leftover.p_value > LEVEL
 
-    @property
-    def evidence(self) -> float:
-        return evidence(self.found.fitted)
+    def evidence(self, choices: int) -> float:
+        """To be compared between pictures; a named law was chosen among as many, which counts against it.
+
+        Source: the extended BIC (Chen and Chen 2008) with gamma 0.5.
+        """
+        named = sum(not term.tacit for term in self.found.fitted.terms)
+        return evidence(self.found.fitted) + named * float(np.log(max(choices, 1)))
 
 
 Tick = Callable[[float, str], None]
@@ -99,13 +102,15 @@ def explore(before: Fitted, rng: np.random.Generator, tick: Tick) -> Plan:
     tick(0.6, "looking for what has no name")
     curved = _with_curves(first, before, wanted, rng, tick)
     pictures = (curved, built) if first.doubt is not None else (first, curved, built)
-    best = min(pictures, key=lambda plan: plan.evidence)
-    if best is first and built.sound and built.evidence - first.evidence < MARGIN:
-        best = built  # as likely, and it names less
+
+    def unlikely(plan: Plan) -> float:
+        return plan.evidence(len(wanted))
+
+    best = min(pictures, key=unlikely)
     if best is built and not built.sound:
         # With free curves in, an arm as built may fit worse than the sound description did with them.
         again = _with_curves(built, fit_as_built(before), physical, rng, tick)
-        best = min((again, curved), key=lambda plan: plan.evidence)
+        best = min((again, curved), key=unlikely)
     return best
 
 

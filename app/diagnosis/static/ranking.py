@@ -12,15 +12,21 @@ _CLOSE = 30  # candidates at the top that are ranked at all
 _ALIKE = 0.05  # difference of -log10 p below which two candidates count as exactly alike
 
 
-def by_rank(order: np.ndarray, scores: Scores) -> list[int]:
-    """By score; among candidates that explain exactly alike, the one a person would name first."""
+def by_rank(scores: Scores, rows: int) -> list[int]:
+    """By score; among candidates that explain exactly alike, the one a person would name first.
+
+    A step's row was chosen among all `rows`, which is worth as many tries: a slip in the first rows does not
+    overtake the zero that it all but is.
+    """
+    stepping = np.array(["from_row" in candidate.place.where for candidate in scores.candidates])
+    worth = scores.score - np.where(stepping, np.log10(max(rows, 1)), 0.0)
     best: list[int] = []
-    left = list(order[:_CLOSE])
+    left = list(np.argsort(-worth, kind="stable")[:_CLOSE])
     while left:
-        top = scores.score[left[0]]
-        alike = [i for i in left if top - scores.score[i] < _ALIKE and top > 0]
+        top = worth[left[0]]
+        alike = [i for i in left if top - worth[i] < _ALIKE and top > 0]
         alike = alike or left[:1]
-        alike.sort(key=lambda i: (scores.candidates[i].effect.rank, -scores.score[i]))
+        alike.sort(key=lambda i: (scores.candidates[i].effect.rank, -worth[i]))
         best += alike
         left = [i for i in left if i not in alike]
     return best

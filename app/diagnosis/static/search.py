@@ -96,7 +96,7 @@ def take(now: Fitted, scores: Scores, chance: Chance) -> tuple[Fitted, float] | 
     Args:
         scores: of the library on what `now` leaves.
     """
-    for index in by_rank(scores.order(), scores)[:TRIES]:
+    for index in by_rank(scores, now.rows)[:TRIES]:
         p_value = scores.p_value(index)
         if not p_value <= chance.level:
             return None

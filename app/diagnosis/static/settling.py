@@ -57,6 +57,8 @@ def _better(now: Fitted, index: int, wanted: tuple[Candidate, ...]) -> Fitted | 
         if scores.visible[at] < LEAST_VISIBLE:
             continue
         margin = 0.01 if _same_but_row(candidate, term) else _BETTER
+        if "from_row" in candidate.place.where and "from_row" not in term.where:
+            margin = max(margin, float(np.log10(now.rows)))  # the row was chosen among as many
         if scores.score[at] < mine + margin:
             return None
         terms = list(now.terms)

@@ -34,7 +34,7 @@ def two_at_once(now: Fitted, scores: Scores, chance: Chance, take: Take) -> tupl
     """
     present = {key_of(term.effect.key, term.where) for term in now.terms}
     tried: set[tuple] = set()
-    for index in by_rank(scores.order(), scores):
+    for index in by_rank(scores, now.rows):
         if not scores.p_value(index) <= chance.level or len(tried) == FIRSTS:
             return None
         first = scores.candidates[index]
