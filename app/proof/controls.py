@@ -100,7 +100,10 @@ def _flipped(rng: np.random.Generator, path: Path) -> tuple[str, str]:
         (term,) = made.terms
         places = {k: v for k, v in term.where.items() if k == "joint" or key == "backlash"}
         sizes = {k: -v for k, v in term.parameters.items()}
-        made = make(plan, made.cell.arm, made.cell.described, [Request(key, places, sizes)], rng)
+        try:
+            made = make(plan, made.cell.arm, made.cell.described, [Request(key, places, sizes)], rng)
+        except InputError:  # at these poses the joint does not carry the effect
+            continue
         if _tellable(made):
             _written(made, path)
             return "", f"{key} {dict(term.where)} negative"
