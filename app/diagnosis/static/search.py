@@ -28,7 +28,7 @@ from app.diagnosis.static.settling import exchanged, settle
 from app.diagnosis.static.together import two_at_once
 
 #: A term is taken only where chance would do as well in at most this share of searches.
-LEVEL = 0.01
+LEVEL = 0.005
 MOST_TERMS = 6
 MOST_EXCHANGES = 3
 NULLS = 199

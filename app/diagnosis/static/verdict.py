@@ -14,7 +14,7 @@ from app.diagnosis.static.evidence import evidence_of
 from app.diagnosis.static.excess import below_noise, beyond_noise
 from app.diagnosis.static.findings import findings_of, quality, strong
 from app.diagnosis.static.gross import HOPELESS
-from app.diagnosis.static.library import candidates
+from app.diagnosis.static.library import GEOMETRY, candidates
 from app.diagnosis.static.looking import key_of
 from app.diagnosis.static.models import saved_model
 from app.diagnosis.static.next_poses import next_poses
@@ -29,6 +29,8 @@ from app.kinematics import RobotModel
 _LEAVES = 0.01
 #: So many laws at once are likelier an approximation of one that has no name here.
 CROWD = 5
+#: Lengths, twists and zeros together bend to any smooth error of an arm.
+CROWD_OF_GEOMETRY = 3
 #: m: an arm whose every length is off by this is another arm.
 _ANOTHER = 0.02
 
@@ -50,7 +52,7 @@ def conclude(robot: RobotModel, outcome: Outcome, tick, began: float) -> Diagnos
     known = known_noise(recording)
     noise = noise_of(found.recording, known, found)
     excess = beyond_noise(found, known)
-    crowd = len(standing) >= CROWD
+    crowd = len(standing) >= CROWD or sum(f.effect in GEOMETRY for f in standing) >= CROWD_OF_GEOMETRY
     left = hopeless or excess or contested or crowd or _structure(plan, findings)
     said = {key_of(f.effect, f.where) for f in findings}
     kept = {id(t) for t in found.terms if (t.tacit and not hopeless) or key_of(t.effect.key, t.where) in said}
