@@ -96,7 +96,8 @@ class _View:
     def _start(self) -> None:
         pendant, chosen = self.pendant, self.chosen
         pendant.do(begin(chosen, secrets.randbits(_SEEDS), time.time(), pendant.trainee))
-        pendant.say("info", pendant.t("training.begun", title=chosen.said(pendant.language).title))
+        tab = pendant.t("base.title" if chosen.goal == "relation" else "tool.title")
+        pendant.say("info", pendant.t("training.begun", title=chosen.said(pendant.language).title, tab=tab))
 
     def _finish(self) -> None:
         answer = self._answers.get(str(self._answer.value), "") if self._answer.visible else ""
