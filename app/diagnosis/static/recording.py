@@ -97,7 +97,7 @@ class StaticRecording:
             assert self.lengths is not None
             return np.isfinite(self.lengths).reshape(m, 1)
         assert self.points is not None
-        parts = [np.isfinite(self.points).reshape(m, -1)]
+        parts: list[np.ndarray] = [np.isfinite(self.points).reshape(m, -1)]
         if self.orientations is not None:
             seen = np.isfinite(self.orientations).all(axis=(1, 2))
             parts.append(np.repeat(np.reshape(seen, (m, 1)), 3, axis=1))

@@ -148,7 +148,10 @@ def score_library(
                 best_null, significance(gains[mine, 1:].max(axis=0), null_rss, int(d), dof)
             )
     found = list(library.candidates)
-    all_gain, all_score, all_visible, all_size = [gains[:, 0]], [score], [visible], [sizes]
+    all_gain: list[np.ndarray] = [gains[:, 0]]
+    all_score: list[np.ndarray] = [score]
+    all_visible: list[np.ndarray] = [visible]
+    all_size: list[np.ndarray] = [sizes]
     scans = scan_all([block for _, block in library.scans], base.q, both_white, VISIBLE)
     for (candidate, block), result in zip(library.scans, scans, strict=True):
         if not len(result.rows):

@@ -38,7 +38,7 @@ class TorqueRipple(JointLaw):
         joint, order = joint_of(where), shape["order"]
         if order in ORDERS:  # whole powers of one turn: a few products instead of a sine
             turned = state.turned(joint, int(order))
-            return np.stack([turned.imag, turned.real], axis=1)
+            return np.stack([np.imag(turned), np.real(turned)], axis=1)
         angle = order * state.q[:, joint]
         return np.stack([np.sin(angle), np.cos(angle)], axis=1)
 
