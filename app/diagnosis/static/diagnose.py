@@ -81,11 +81,8 @@ def _before(recording: StaticRecording, fitted: Fitted, term: Term) -> list[int]
     """Rows that were set aside between a step's first row and the last one kept before it."""
     if "from_row" not in term.where:
         return []
-    begins, kept, rows = (
-        int(term.where["from_row"]),
-        fitted.recording.situation.order,
-        recording.situation.order,
-    )
+    begins = int(term.where["from_row"])
+    kept, rows = fitted.recording.situation.order, recording.situation.order
     last = kept[kept < begins].max(initial=-1)
     return [int(row) for row in rows[(rows > last) & (rows < begins)]]
 

@@ -118,6 +118,11 @@ def angle_unit(situation: Situation, joint: int, per: str = "") -> str:
     return ("mm" if situation.chain.prismatic[joint - 1] else "deg") + per
 
 
+def without_row(where: Mapping[str, Any]) -> dict[str, Any]:
+    """A place without the row at which a step begins."""
+    return {k: v for k, v in where.items() if k != "from_row"}
+
+
 def masked(columns: np.ndarray, situation: Situation, place: Place) -> np.ndarray:
     """Columns cut to the rows from `from_row` on, where the place says one."""
     row = place.where.get("from_row")

@@ -6,7 +6,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from app.diagnosis.static.fit import Fitted, Term
+from app.diagnosis.static.effect import without_row
+from app.diagnosis.static.fit import Fitted, Term, fit
 from app.diagnosis.static.library import Candidate, Library
 from app.diagnosis.static.score import Basis, Scores, basis, score_library
 
@@ -20,6 +21,13 @@ def new_term(candidate: Candidate, fitted: Fitted) -> Term:
     """The candidate as a term that starts from nothing."""
     count = len(candidate.effect.quantities(fitted.recording.situation, candidate.place))
     return Term(candidate.effect, candidate.place, np.zeros(count))
+
+
+def with_candidate(now: Fitted, candidate: Candidate) -> Fitted | None:
+    """The fit with the candidate beside what is in; None where it ends on a physical bound."""
+    terms = (*now.terms, new_term(candidate, now))
+    trial = fit(now.recording, now.setup, terms, now.weights, held=now.held)
+    return None if at_bound(trial, len(terms) - 1) else trial
 
 
 def score_all(
@@ -55,7 +63,7 @@ def taken_already(candidate: Candidate, terms: Sequence[Term]) -> bool:
 
 
 def _without_row(key: str, where) -> tuple[tuple, int | None]:
-    return key_of(key, {k: v for k, v in where.items() if k != "from_row"}), where.get("from_row")
+    return key_of(key, without_row(where)), where.get("from_row")
 
 
 def at_bound(fitted: Fitted, index: int) -> bool:

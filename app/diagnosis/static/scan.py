@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from app.diagnosis.static.effect import without_row
 from app.diagnosis.static.library import Candidate
 
 #: Rows that must stand on either side of a step.
@@ -91,5 +92,5 @@ def _tails(products: np.ndarray) -> np.ndarray:
 def with_row(candidate: Candidate, row: int) -> Candidate:
     """The candidate with its starting row said (1-based data row)."""
     place = candidate.place
-    where = {k: v for k, v in place.where.items() if k != "from_row"}
+    where = without_row(place.where)
     return Candidate(candidate.effect, replace(place, where={**where, "from_row": row}))

@@ -8,14 +8,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from app.diagnosis.static.chance import Chance
+from app.diagnosis.static.effect import without_row
 from app.diagnosis.static.fit import Fitted, fit
 from app.diagnosis.static.heldout import heldout_loss
 from app.diagnosis.static.library import Candidate
 from app.diagnosis.static.looking import (
     LEAST_VISIBLE,
-    at_bound,
-    new_term,
     taken_already,
+    with_candidate,
     with_ghosts,
     without,
 )
@@ -103,10 +103,8 @@ def take(now: Fitted, scores: Scores, chance: Chance) -> tuple[Fitted, float] | 
         candidate = scores.candidates[index]
         if scores.visible[index] < LEAST_VISIBLE or taken_already(candidate, now.terms):
             continue
-        trial = fit(
-            now.recording, now.setup, (*now.terms, new_term(candidate, now)), now.weights, held=now.held
-        )
-        if at_bound(trial, len(trial.terms) - 1) or not improves(now, trial):
+        trial = with_candidate(now, candidate)
+        if trial is None or not improves(now, trial):
             continue
         null = chance.in_stretches(trial)
         if null is not None:
@@ -152,7 +150,7 @@ def refined(now: Fitted) -> Fitted:
     jacobian, white = without(now, index)
     base = basis(jacobian)
     rest = white - base.q @ (base.q.T @ white)
-    open_place = replace(term.place, where={k: v for k, v in term.where.items() if k != "from_row"})
+    open_place = replace(term.place, where=without_row(term.where))
     block = term.effect.columns(now.columns, open_place)
     order, row = now.recording.situation.order, int(term.where["from_row"])
     best, at = -1.0, row

@@ -6,6 +6,7 @@ from itertools import combinations
 
 import numpy as np
 
+from app.diagnosis.static.effect import without_row
 from app.diagnosis.static.fit import Fitted, Term, fit
 from app.diagnosis.static.library import Candidate, library
 from app.diagnosis.static.looking import (
@@ -70,10 +71,7 @@ def _better(now: Fitted, index: int, wanted: tuple[Candidate, ...]) -> Fitted | 
 
 
 def _same_but_row(candidate: Candidate, term: Term) -> bool:
-    def bare(where):
-        return {k: v for k, v in where.items() if k != "from_row"}
-
-    return candidate.effect is term.effect and bare(candidate.place.where) == bare(term.where)
+    return candidate.effect is term.effect and without_row(candidate.place.where) == without_row(term.where)
 
 
 def _own_score(now: Fitted, index: int, base: Basis, white: np.ndarray) -> float:

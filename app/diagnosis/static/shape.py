@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from app.diagnosis.static.curves import shape_functions
+from app.diagnosis.static.effect import without_row
 from app.diagnosis.static.fit import Fitted, Term
 from app.diagnosis.static.looking import without
 from app.diagnosis.static.score import basis, significance
@@ -99,7 +100,7 @@ def _extra_columns(fitted: Fitted, term: Term) -> np.ndarray | None:
 
 
 def _started(term: Term):
-    where = {k: v for k, v in term.where.items() if k != "from_row"}
+    where = without_row(term.where)
     return replace(term.place, where=where)
 
 

@@ -11,9 +11,10 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 from app.diagnosis.static.chance import Chance
+from app.diagnosis.static.effect import without_row
 from app.diagnosis.static.fit import Fitted, Term, fit
 from app.diagnosis.static.library import Candidate
-from app.diagnosis.static.looking import LEAST_VISIBLE, at_bound, key_of, new_term
+from app.diagnosis.static.looking import LEAST_VISIBLE, key_of, taken_already, with_candidate
 from app.diagnosis.static.noise import weights_from
 from app.diagnosis.static.ranking import by_rank
 from app.diagnosis.static.score import Scores
@@ -32,7 +33,6 @@ def two_at_once(now: Fitted, scores: Scores, chance: Chance, take: Take) -> tupl
         scores: of the library on what `now` leaves.
         take: the fit with the best candidate that stands.
     """
-    present = {key_of(term.effect.key, term.where) for term in now.terms}
     tried: set[tuple] = set()
     for index in by_rank(scores, now.rows):
         if not scores.p_value(index) <= chance.level or len(tried) == FIRSTS:
@@ -41,12 +41,12 @@ def two_at_once(now: Fitted, scores: Scores, chance: Chance, take: Take) -> tupl
         if (
             scores.visible[index] < LEAST_VISIBLE
             or kind_of(first) in tried
-            or key_of(first.effect.key, first.place.where) in present
+            or taken_already(first, now.terms)
         ):
             continue
         tried.add(kind_of(first))
-        trial = fit(now.recording, now.setup, (*now.terms, new_term(first, now)), now.weights, held=now.held)
-        if at_bound(trial, len(trial.terms) - 1):
+        trial = with_candidate(now, first)
+        if trial is None:
             continue
         trial = fit(trial.recording, trial.setup, trial.terms, weights_from(trial), held=trial.held)
         second = take(trial, chance.scores(trial), chance)
@@ -73,5 +73,5 @@ def _one_law(terms: Sequence[Term]) -> bool:
 
 def kind_of(candidate: Candidate) -> tuple:
     """A candidate's identity; the row of a step does not count."""
-    where = {k: v for k, v in candidate.place.where.items() if k != "from_row"}
-    return (*key_of(candidate.effect.key, where), tuple(sorted(candidate.place.fixed.items())))
+    place = candidate.place
+    return (*key_of(candidate.effect.key, without_row(place.where)), tuple(sorted(place.fixed.items())))
