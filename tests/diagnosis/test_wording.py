@@ -3,7 +3,6 @@
 import ast
 import json
 import pickle
-import re
 from pathlib import Path
 
 import pytest
@@ -25,9 +24,9 @@ from app.diagnosis.wording import (
 from app.phrases import FALLBACK
 from app.recordings import joining
 from tests.chinese import CHINESE, english_left
+from tests.translations import FIELD, unlike
 
 CODE = Path(app.diagnosis.__file__).parent
-FIELD = re.compile(r"{(\w+)([^}]*)}")
 OTHERS = [language for language in WORDS.languages if language != FALLBACK]
 FAMILIES = {"note": "note", "reason": "withheld"}
 #: Beside units: symbols of laws, options, file keys, a name.
@@ -83,10 +82,7 @@ def test_no_remark_is_put_into_words_where_it_is_made():
 @pytest.mark.parametrize("language", OTHERS)
 def test_every_language_has_every_word_with_the_same_fields_in_the_same_form(language, texts):
     english, other = texts.languages[FALLBACK], texts.languages[language]
-    wrong = [
-        k for k in english if k not in other or set(FIELD.findall(english[k])) != set(FIELD.findall(other[k]))
-    ]
-    assert not wrong
+    assert not unlike(english, other)
 
 
 def test_every_chinese_remark_and_law_is_chinese():

@@ -6,6 +6,7 @@ import pytest
 
 from app.pendant import texts
 from app.pendant.texts import FALLBACK, languages
+from tests.translations import unlike
 
 PENDANT = Path(texts.__file__).parents[1]
 FIELD = re.compile(r"{(\w+)}")
@@ -101,9 +102,7 @@ def test_every_language_has_every_text(language):
 @pytest.mark.parametrize("language", [key for key in languages() if key != FALLBACK])
 def test_a_translation_has_the_same_fields(language):
     english, other = texts.TEXTS.languages[FALLBACK], texts.TEXTS.languages[language]
-    wrong = [
-        k for k in english if k in other and set(FIELD.findall(other[k])) != set(FIELD.findall(english[k]))
-    ]
+    wrong = unlike(english, other)
     assert not wrong, wrong
 
 

@@ -1,7 +1,6 @@
 """Base frames speak every language: no text missing, none left over, no English word in a Chinese run."""
 
 import ast
-import re
 from pathlib import Path
 
 import numpy as np
@@ -16,9 +15,9 @@ from app.errors import ActionRefusedError, DegenerateGeometryError
 from app.phrases import FALLBACK, Phrase
 from tests.calibration.base.files import cell, write
 from tests.chinese import CHINESE, english_left
+from tests.translations import FIELD, unlike
 
 CODE = Path(app.calibration.base.__file__).parent
-FIELD = re.compile(r"{(\w+)([^}]*)}")
 OTHERS = [language for language in TEXTS.languages if language != FALLBACK]
 #: A value for every field that holds text; the others hold numbers.
 WORDS = {
@@ -80,8 +79,7 @@ def test_nothing_is_put_into_english_words_where_it_is_found():
 def test_every_language_has_every_sentence_with_the_same_fields_in_the_same_form(language):
     english, other = TEXTS.languages[FALLBACK], TEXTS.languages[language]
     assert sorted(english) == sorted(other)
-    wrong = [k for k in english if sorted(FIELD.findall(english[k])) != sorted(FIELD.findall(other[k]))]
-    assert not wrong
+    assert not unlike(english, other)
 
 
 def test_a_text_that_is_missing_is_found(monkeypatch):

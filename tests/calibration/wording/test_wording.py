@@ -18,8 +18,8 @@ from app.errors import DegenerateGeometryError
 from app.geometry import rot_z
 from app.resources import STATIC
 from tests.calibration.drawing import captures, touches
+from tests.translations import unlike
 
-FIELD = re.compile(r"{(\w+)")
 OTHERS = [language for language in TEXTS.languages if language != FALLBACK]
 CODE = Path(app.calibration.__file__).parent
 CHINESE = re.compile(r"[\u4e00-\u9fff]")
@@ -47,8 +47,7 @@ def test_chinese_is_among_the_languages():
 def test_every_language_has_every_sentence_with_the_same_fields(language):
     english, other = TEXTS.languages[FALLBACK], TEXTS.languages[language]
     assert sorted(english) == sorted(other)
-    wrong = [key for key in english if set(FIELD.findall(english[key])) != set(FIELD.findall(other[key]))]
-    assert not wrong
+    assert not unlike(english, other)
 
 
 def test_every_sentence_the_code_asks_for_is_there():
