@@ -21,7 +21,7 @@ from app.calibration.base.batch import solve_cells
 from app.calibration.base.solve import solve_base
 from app.geometry import exp_so3
 from app.geometry.circle import fit_axis
-from benchmarks.rows import Row
+from benchmarks.rows import Row, quickest
 
 POINTS, CELLS, ROUNDS, SIGMA = 36, 10_000, 60, 30e-6
 SHORT = np.radians(60.0)
@@ -35,16 +35,6 @@ def arcs(cells: int, rng: np.random.Generator) -> tuple[np.ndarray, np.ndarray]:
     turn, place = exp_so3(rng.normal(size=(cells, 3))), rng.uniform(-3, 3, (cells, 1, 3))
     moved = [p @ np.swapaxes(turn, 1, 2) + place for p in (first, second)]
     return moved[0] + rng.normal(0, SIGMA, moved[0].shape), moved[1] + rng.normal(0, SIGMA, moved[1].shape)
-
-
-def quickest(function: Callable[[], object], rounds: int = ROUNDS) -> float:
-    """Shortest of several calls [s]: what the machine does when nobody else is on it."""
-    best = float("inf")
-    for _ in range(rounds):
-        start = time.perf_counter()
-        function()
-        best = min(best, time.perf_counter() - start)
-    return best
 
 
 def general(points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -107,21 +97,21 @@ def run() -> list[Row]:
     one, two = first[0], second[0]
     numbers, zero = np.arange(POINTS), np.zeros(POINTS, int)
     source = Arcs(Path("cell"), {1: Arc(1, one, None, numbers, zero), 2: Arc(2, two, None, numbers, zero)})
-    frame = quickest(lambda: solve_base(source))
+    frame = quickest(lambda: solve_base(source), ROUNDS)
     rows.append(
-        Row("base on 2 x 36 points, signs, covariance, all checks", frame, quickest(lambda: peer_frame(fit, one, two)),
-            f"{name}: frame only", "s", 2e-3)
+        Row("base on 2 x 36 points, signs, covariance, all checks", frame,
+            quickest(lambda: peer_frame(fit, one, two), ROUNDS), f"{name}: frame only", "s", 2e-3)
     )  # fmt: skip
-    bare = quickest(lambda: solve_cells(first[:1], second[:1], SIGMA, SIGMA))
-    rows.append(Row("the same without checks", bare, quickest(lambda: peer_frame(general, one, two)),
+    bare = quickest(lambda: solve_cells(first[:1], second[:1], SIGMA, SIGMA), ROUNDS)
+    rows.append(Row("the same without checks", bare, quickest(lambda: peer_frame(general, one, two), ROUNDS),
                     "scipy least_squares: frame only"))  # fmt: skip
-    rows.append(Row("one circle of 36 points, with covariance", quickest(lambda: fit_axis(one)),
-                    quickest(lambda: general(one)), "scipy least_squares, no covariance"))  # fmt: skip
+    rows.append(Row("one circle of 36 points, with covariance", quickest(lambda: fit_axis(one), ROUNDS),
+                    quickest(lambda: general(one), ROUNDS), "scipy least_squares, no covariance"))  # fmt: skip
     many = quickest(lambda: solve_cells(first, second, SIGMA, SIGMA), 3)
-    start = time.perf_counter()
+    start = time.process_time()
     for k in range(100):
         peer_frame(fit, first[k], second[k])
-    looped = (time.perf_counter() - start) * CELLS / 100
+    looped = (time.process_time() - start) * CELLS / 100
     rows.append(Row("10,000 cells in one call", many, looped, f"{name}, in a loop (100 timed)"))
     rows.append(_accuracy(name, fit, rng))
     return rows
