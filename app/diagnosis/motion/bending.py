@@ -8,7 +8,6 @@ import numpy as np
 
 from app.diagnosis.motion.scoring import solve
 from app.diagnosis.motion.system import Group, System
-from app.estimation import lowest
 
 WIDTH = 0.8  # of the logarithm, either way
 
@@ -19,6 +18,8 @@ def bent(system: System, prior: np.ndarray, others: list[Group], group: Group) -
     names = () if law is None else tuple(n for n in law.shape_bounds if n in group.shape)
     if law is None or not names or group.joint is None:
         return group
+    from scipy.optimize import minimize_scalar  # slow to load, and many a diagnosis bends nothing
+
     name = names[0]
     low, high = law.shape_bounds[name]
     start = group.shape[name]
@@ -40,7 +41,7 @@ def bent(system: System, prior: np.ndarray, others: list[Group], group: Group) -
         s = c.T @ left
         return -float(s @ np.linalg.solve(M, s)) if len(s) > 1 else -float(s[0] ** 2 / M[0, 0])
 
-    best = lowest(loss, *bounds, within=1e-3, most=20)
-    shape = {**group.shape, name: float(np.exp(best))}
+    best = minimize_scalar(loss, bounds=bounds, method="bounded", options={"maxiter": 20, "xatol": 1e-3})
+    shape = {**group.shape, name: float(np.exp(best.x))}
     new = replace(group, shape=shape)
     return system.append(new, samples.pool(law.columns(samples.state, group.where, shape)))
