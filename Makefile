@@ -6,19 +6,23 @@ BIN    := $(VENV)/bin
 export OMP_NUM_THREADS := 1
 export OPENBLAS_NUM_THREADS := 1
 
-.PHONY: run test check format bench golden wheel clean
+.PHONY: run test check audit format bench golden wheel fuzz clean
 
 run: $(VENV)/.installed
 	$(BIN)/teachframe serve
 
 test: $(VENV)/.installed-dev browser
-	$(BIN)/python -m pytest -n 2 --dist loadgroup -m "not browser"
-	$(BIN)/python -m pytest -m browser
+	$(BIN)/python -m pytest -n 3 --dist loadgroup -m "not browser"
+	$(BIN)/python -m pytest -n 2 --dist loadgroup -m browser
 
 check: $(VENV)/.installed-dev
 	$(BIN)/ruff format --check .
 	$(BIN)/ruff check .
 	$(BIN)/pyright
+
+# Advisories on what is installed; where no registry or no advisories answer, a line says so.
+audit: $(VENV)/.installed-dev
+	$(BIN)/python .ci/audit
 
 format: $(VENV)/.installed-dev
 	$(BIN)/ruff format .
@@ -30,6 +34,10 @@ bench: $(VENV)/.installed-dev
 
 golden: $(VENV)/.installed-dev
 	TEACHFRAME_REWRITE_GOLDEN=1 $(BIN)/python -m pytest tests -k golden
+
+# The nightly run: a million made-up files through whole commands, on all cores.
+fuzz: $(VENV)/.installed-dev
+	$(BIN)/python -m tests.hardening.fuzz 1000000
 
 wheel: $(VENV)/.installed-dev
 	$(BIN)/pip wheel -q --no-deps -w dist .

@@ -10,7 +10,9 @@ TeachframeError
 ├── DegenerateGeometryError       the points cannot determine what is asked (exit code 2)
 │   └── TooFewPointsError         fewer points than unknowns need
 ├── StorageError                  the database did not keep or give what was asked
-└── ActionRefusedError            a session's state does not allow the action
+│   └── ConflictError             another program wrote the same row first
+├── ActionRefusedError            a session's state does not allow the action
+└── PersonRefusedError            somebody is not known here, or may not do this (exit code 2)
 
 Each carries its evidence as attributes and says itself in one line, `str(error)`.
 """
@@ -20,10 +22,22 @@ from __future__ import annotations
 import difflib
 from collections.abc import Iterable
 from pathlib import Path
+from typing import Any
 
 
 class TeachframeError(Exception):
     """The root: everything below is for a person to read and act on."""
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """An error of a process of its own reaches its parent with all it carries."""
+        return _again, (type(self), self.args, self.__dict__)
+
+
+def _again(kind: type[TeachframeError], args: tuple[Any, ...], carried: dict[str, Any]) -> TeachframeError:
+    error = kind.__new__(kind, *args)
+    error.args = args
+    error.__dict__.update(carried)
+    return error
 
 
 class InputError(TeachframeError):
@@ -148,6 +162,10 @@ class StorageError(TeachframeError):
     """The database did not keep or give what was asked; nothing was changed."""
 
 
+class ConflictError(StorageError):
+    """Another program wrote the same row first; nothing was changed."""
+
+
 class ActionRefusedError(TeachframeError):
     """The session is not in a state that allows this action; says what to do instead.
 
@@ -159,6 +177,20 @@ class ActionRefusedError(TeachframeError):
     def __init__(self, message: str, *, said: object = None):
         self.said = said
         super().__init__(message)
+
+
+class PersonRefusedError(TeachframeError):
+    """Somebody is not let in, or may not do this.
+
+    Args:
+        why: a code, for whoever reacts to it.
+        message: why, in one sentence.
+        said: the same as a phrase that speaks other languages too.
+    """
+
+    def __init__(self, why: str, message: str, *, said: object = None):
+        self.why, self.said = why, said
+        super().__init__(one_line(message))
 
 
 def one_line(text: str, limit: int = 600) -> str:

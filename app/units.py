@@ -14,7 +14,8 @@ MM_PER_CM = 10.0
 MM_PER_INCH = 25.4
 DEG_PER_RAD = 180.0 / math.pi
 
-#: Suffix of a column or parameter -> factor that brings its values to SI.
+#: Suffix of a column or parameter -> factor that brings its values to SI (`iso` is a moment written by ISO 8601, which
+#: is read as seconds since 1970).
 SI_FACTORS: dict[str, float] = {
     "mm": 1.0 / MM_PER_M,
     "m": 1.0,
@@ -22,6 +23,9 @@ SI_FACTORS: dict[str, float] = {
     "rad": 1.0,
     "s": 1.0,
     "ms": 1.0e-3,
+    "us": 1.0e-6,
+    "ns": 1.0e-9,
+    "iso": 1.0,
     "Nm": 1.0,
     "A": 1.0,
     "rad_s": 1.0,

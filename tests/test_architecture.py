@@ -3,15 +3,24 @@
 import ast
 from pathlib import Path
 
+from tests.source import parsed
+
 APP = Path(__file__).parent.parent / "app"
 
 #: Highest first; a package may import itself and what stands below it.
 LAYERS = [
     "__main__",
     "cli",
-    "pendant",
+    "shell",
+    "workers",
+    "screens",
+    "scene",
+    "panel",
+    "classroom",
+    "people",
     "training",
     "session",
+    "fleet",
     "proof",
     "simulation",
     "diagnosis",
@@ -21,8 +30,13 @@ LAYERS = [
     "estimation",
     "geometry",
     "catalog",
+    "texts",
     "resources",
     "phrases",
+    "files",
+    "apart",
+    "templating",
+    "typed",
     "errors",
     "units",
     "__init__",
@@ -30,26 +44,52 @@ LAYERS = [
 
 #: Third-party package -> the only layers that may import it.
 CONFINED = {
-    "viser": {"pendant"},
+    "viser": {"scene"},
+    "starlette": {"shell"},
+    "uvicorn": {"shell"},
+    "websockets": {"shell", "scene"},
     "pinocchio": {"kinematics"},
     "coal": {"kinematics"},
+    "trimesh": {"kinematics"},
+    "xacrodoc": {"kinematics"},
+    "h5py": {"recordings"},
     "tyro": {"cli"},
-    "sqlalchemy": {"session", "training"},
+    "alembic": {"session"},
+    "sqlalchemy": {"session", "training", "people", "classroom"},
+    "argon2": {"people"},
+    "authlib": {"shell"},
+    "joserfc": {"shell"},
+    "httpx": {"shell"},
     "rosbags": {"recordings"},
-    "polars": {"recordings"},
+    "polars": {"recordings", "fleet"},
+    "distributed": {"fleet"},
+    "dask": {"fleet"},
 }
 
 #: The generator of sealed cases shares no code with the search it examines: only these may be seen from it.
-PROOF_GENERATOR_SEES = {"errors", "units", "catalog", "resources"}
+PROOF_GENERATOR_SEES = {"errors", "files", "units", "catalog", "resources"}
+
+#: Neither knows the other: the web server speaks to sessions, the scene is drawn by them.
+STRANGERS = [("shell", "scene"), ("scene", "shell"), ("shell", "screens"), ("session", "panel")]
 
 LONGEST_FILE = 300
 
 
 def _imports(path):
-    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+    for node in ast.walk(parsed(path)):
         if isinstance(node, ast.Import):
             yield from (alias.name for alias in node.names)
         elif isinstance(node, ast.ImportFrom) and node.module and node.level == 0:
+            yield node.module
+            yield from (f"{node.module}.{alias.name}" for alias in node.names)
+
+
+def _run_time_imports(path):
+    """Modules imported when the file is: not inside functions, not for the type checker alone."""
+    for node in parsed(path).body:
+        if isinstance(node, ast.Import):
+            yield from (alias.name for alias in node.names)
+        elif isinstance(node, ast.ImportFrom) and node.module:
             yield node.module
             yield from (f"{node.module}.{alias.name}" for alias in node.names)
 
@@ -83,6 +123,32 @@ def test_every_import_points_down():
     assert not wrong, wrong
 
 
+def test_strangers_do_not_import_each_other():
+    wrong = []
+    for path in _files():
+        for module in _imports(path):
+            for one, other in STRANGERS:
+                if _layer(path) == one and module.split(".")[:2] == ["app", other]:
+                    wrong.append(f"{path.relative_to(APP)} imports {module}")
+    assert not wrong, wrong
+
+
+def test_no_file_imports_itself_in_a_circle():
+    edges = {}
+    names = {p: ".".join(p.relative_to(APP.parent).with_suffix("").parts) for p in _files()}
+    known = set(names.values())
+    for path, name in names.items():
+        edges[name] = {m for m in _run_time_imports(path) if m in known and m != name}
+    for start in sorted(edges):
+        seen, todo = set(), list(edges[start])
+        while todo:
+            at = todo.pop()
+            assert at != start, f"{start} imports itself in a circle"
+            if at not in seen:
+                seen.add(at)
+                todo.extend(edges[at])
+
+
 def test_third_parties_stay_in_their_place():
     wrong = []
     for path in _files():
@@ -107,7 +173,7 @@ def test_the_proof_generator_shares_no_code_with_the_search():
 
 def test_no_relative_imports_hide_an_arrow():
     for path in _files():
-        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        for node in ast.walk(parsed(path)):
             assert not (isinstance(node, ast.ImportFrom) and node.level), path
 
 
@@ -115,7 +181,7 @@ def test_conversion_factors_live_in_units_only():
     for path in _files():
         if path.name == "units.py":
             continue
-        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        for node in ast.walk(parsed(path)):
             if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Mult | ast.Div):
                 for side in (node.left, node.right):
                     value = side.value if isinstance(side, ast.Constant) else None
@@ -127,3 +193,69 @@ def test_no_file_is_longer_than_one_idea():
         f"{p}: {n}" for p in _files() if (n := len(p.read_text(encoding="utf-8").splitlines())) > LONGEST_FILE
     ]
     assert not long, long
+
+
+#: Words that are an effect's key and something else as well: a family of the budget, a column of recordings, a number
+#: that a model holds.
+ALSO = {"unnamed", "payload", "delay", "contact"}
+#: Files of the engine of joint logs that still ask for an effect by its key where a capability would do. None joins.
+BY_NAME = {
+    "dynamic/budget.py",
+    "dynamic/conventions.py",
+    "dynamic/diagnose.py",
+    "dynamic/events.py",
+    "dynamic/findings.py",
+    "dynamic/fitting.py",
+    "dynamic/names.py",
+    "dynamic/next_motion.py",
+    "dynamic/ready.py",
+    "dynamic/reference.py",
+    "dynamic/saving.py",
+    "dynamic/sharpness.py",
+    "models/dynamic/library.py",
+    "models/dynamic/saved.py",
+}
+
+
+def _keys(kind):
+    from app import catalog
+
+    return set(catalog.members(f"app.diagnosis.effects.{kind}", "EFFECT")) - ALSO
+
+
+def _named_in(path, keys):
+    """Effects whose key stands as a text in a file, docstrings not counted."""
+    tree = parsed(path)
+    said = {
+        id(node.body[0].value)
+        for node in ast.walk(tree)
+        if isinstance(node, ast.Module | ast.ClassDef | ast.FunctionDef)
+        and node.body
+        and isinstance(node.body[0], ast.Expr)
+    }
+    return {
+        node.value
+        for node in ast.walk(tree)
+        if isinstance(node, ast.Constant)
+        and isinstance(node.value, str)
+        and node.value in keys
+        and id(node) not in said
+    }
+
+
+def test_the_engine_of_poses_knows_no_effect_by_name():
+    keys = _keys("kinematic")
+    engine = ("kinematic", "models/kinematic", "observations", "regression", "selection", "thresholds")
+    files = [p for folder in engine for p in sorted((APP / "diagnosis" / folder).rglob("*.py"))]
+    assert not {p.name: named for p in files if (named := _named_in(p, keys))}
+    for path in (APP / "diagnosis" / "effects" / "kinematic").glob("*.py"):
+        assert _named_in(path, keys) <= {path.stem}, path
+
+
+def test_no_further_file_of_joint_logs_knows_an_effect_by_name():
+    keys = _keys("dynamic")
+    files = [
+        p for folder in ("dynamic", "models/dynamic") for p in (APP / "diagnosis" / folder).rglob("*.py")
+    ]
+    named = {p.relative_to(APP / "diagnosis").as_posix() for p in files if _named_in(p, keys)}
+    assert named <= BY_NAME, named - BY_NAME

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import lru_cache
 from typing import Any, Protocol
 
 import numpy as np
@@ -19,6 +20,9 @@ ROLES: dict[str, str] = {
     "x": "the tip moved along the tool's +X from the origin",
     "y": "the tip moved along the tool's +Y from the origin",
     "z": "the tip moved along the tool's +Z from the origin",
+    "-x": "the tip moved along the tool's -X from the origin, as a retreat from the fixed point does",
+    "-y": "the tip moved along the tool's -Y from the origin",
+    "-z": "the tip moved along the tool's -Z from the origin, as for ABB's elongator points",
     "known": "the known tool's tip touches the fixed point",
     "plane": "the tip touches the plane",
     "spin": "the tool turned about its own axis",
@@ -105,6 +109,7 @@ class Mode(Protocol):
         ...
 
 
+@lru_cache(maxsize=256)
 def split_role(role: str) -> tuple[str, ...]:
     """`touch+origin` -> ("touch", "origin")."""
     return tuple(part.strip() for part in role.split("+"))
@@ -142,3 +147,25 @@ def stack(captures: Sequence[Capture]) -> tuple[np.ndarray, np.ndarray]:
         return np.zeros((0, 3, 3)), np.zeros((0, 3))
     matrices = np.array([c.T_base_flange.matrix for c in captures])
     return matrices[:, :3, :3], matrices[:, :3, 3]
+
+
+def forward(captures: Sequence[Capture]) -> tuple[Capture, ...]:
+    """The same captures, every stroke that was made backwards (`-z`) as the one it stands for (`z`).
+
+    A stroke only shows a line: its end, mirrored about the origin without turning the tool, is the end of the stroke
+    along the axis itself.
+    """
+    origins = of_role(captures, "origin")
+    if not origins:
+        return tuple(captures)
+    start = origins[0].T_base_flange.position
+    return tuple(
+        replace(
+            c,
+            role=c.role.removeprefix("-"),
+            T_base_flange=Pose.of(c.T_base_flange.rotation, 2.0 * start - c.T_base_flange.position),
+        )
+        if c.role.startswith("-")
+        else c
+        for c in captures
+    )

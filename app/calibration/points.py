@@ -15,8 +15,9 @@ import numpy as np
 from app.calibration.captures import ROLES, Capture, split_role
 from app.errors import CellValueError, FileFormatError, MissingColumnError, UnitError, UnknownNameError
 from app.geometry import CONVENTIONS, AngleConvention, Pose, angle_between
-from app.kinematics import RobotModel, load_robot
+from app.kinematics import RobotModel
 from app.recordings import Table, read_table
+from app.recordings.arm import names_robot, robot_for
 
 #: Joints and pose of one row that differ by more than this do not belong together.
 POSITION_TOLERANCE, ANGLE_TOLERANCE = 1e-3, 2e-3
@@ -69,28 +70,32 @@ class Points:
     note: str = ""
 
 
-def read_points(path: str | Path) -> Points:
+def read_points(path: str | Path, robot: str | None = None) -> Points:
     """Reads a points file.
+
+    Args:
+        path: the file.
+        robot: the arm's address, for joints; None takes the header's.
 
     Raises:
         InputError: names the file, the row and the column.
     """
-    return points_from_table(read_table(path))
+    return points_from_table(read_table(path), robot)
 
 
-def points_from_table(table: Table) -> Points:
+def points_from_table(table: Table, robot: str | None = None) -> Points:
     """The same from a table that has been read."""
     if table.kind not in (None, "points"):
         raise FileFormatError(
             f"its kind is {table.kind!r}", file=table.path, column="# kind", expected="points"
         )
     table.require(["role"])
-    by_pose, by_joints = _written_pose(table), _written_joints(table)
-    robot = None
+    by_pose, by_joints = _written_pose(table), _written_joints(table, robot)
+    arm = None
     apart = None
     joints = None
     if by_joints is not None:
-        joints, robot = by_joints
+        joints, arm = by_joints
     if by_pose is None:
         if joints is None:
             table.require(["x", "y", "z"])
@@ -116,7 +121,7 @@ def points_from_table(table: Table) -> Points:
         title = ": ".join(str(part) for pair in title.items() for part in pair)
     note = str(table.keys.get("note") or "")
     stated = _references(table)
-    return Points(table.path, str(title or ""), captures, by_pose, stated, apart, robot, note)
+    return Points(table.path, str(title or ""), captures, by_pose, stated, apart, arm, note)
 
 
 def _roles(table: Table) -> list[str]:
@@ -186,12 +191,11 @@ def _convention(table: Table) -> AngleConvention | None:
     return None
 
 
-def _written_joints(table: Table) -> tuple[Written, RobotModel] | None:
+def _written_joints(table: Table, named: str | None) -> tuple[Written, RobotModel] | None:
     names = table.numbered("q")
     if not names:
         return None
-    stated = table.keys.get("robot")
-    if stated is None:
+    if not names_robot(table, named):
         if table.has("x", "y", "z"):
             return None
         raise MissingColumnError(
@@ -200,12 +204,7 @@ def _written_joints(table: Table) -> tuple[Written, RobotModel] | None:
             column="# robot",
             expected="a robot's name or the path of a URDF",
         )
-    try:
-        robot = load_robot(str(stated), relative_to=table.path.parent)
-    except UnknownNameError as error:
-        raise UnknownNameError(
-            str(stated)[:80], available=error.available, what="robot", file=table.path, column="# robot"
-        ) from None
+    robot = robot_for(table, named)
     table.require([f"q{j + 1}" for j in range(robot.joint_count)])
     if len(names) != robot.joint_count:
         raise FileFormatError(
@@ -213,7 +212,7 @@ def _written_joints(table: Table) -> tuple[Written, RobotModel] | None:
             file=table.path,
             row=table.header_row,
             column=names[-1],
-            expected=f"{robot.joint_count} for {robot.title}",
+            expected=f"{robot.joint_count} for {robot.title} from {robot.base} to its flange {robot.flange}",
         )
     for name, joint in zip(names, robot.joints, strict=True):
         column = table.columns[name]

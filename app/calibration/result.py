@@ -6,6 +6,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from app.estimation import reach
 from app.geometry import Pose
 from app.phrases import Phrase
 from app.units import mm
@@ -146,9 +147,9 @@ class ToolCalibration:
 
     def summary(self) -> str:
         """A few lines for a person, in millimetres."""
-        p, s = mm(self.tool_point), mm(self.sigma_tool)
+        p, s = mm(self.tool_point), mm(self.sigma_tool * reach(self.dof, dimensions=1))
         lines = [
-            "tool point in the flange [mm]: "
+            "tool point in the flange [mm], ± 95%: "
             + ", ".join(f"{axis} {v:.3f} ± {e:.3f}" for axis, v, e in zip("xyz", p, s, strict=True)),
         ]
         if len(self.residual_vectors):

@@ -18,10 +18,11 @@ import numpy as np
 
 from app.calibration.result import ToolCalibration
 from app.calibration.wording import degenerate
-from app.errors import DegenerateGeometryError, MissingColumnError, TooFewPointsError, UnknownNameError
+from app.errors import DegenerateGeometryError, TooFewPointsError
+from app.estimation import reach
 from app.geometry import Pose
-from app.kinematics import load_robot
 from app.recordings import Table
+from app.recordings.arm import robot_for
 from app.units import mm
 
 _SINGULAR = 1e-6
@@ -35,6 +36,7 @@ class Sockets:
     Args:
         name: the file.
         robot: the arm's title.
+        flange: the link that was taken as its flange.
         result: the tool, its residuals and its covariance between placements where there are enough of them.
         targets: label of each point.
         points: (k, 3) the touched points in base [m].
@@ -47,6 +49,7 @@ class Sockets:
 
     name: str
     robot: str
+    flange: str
     result: ToolCalibration
     targets: tuple[str, ...]
     points: np.ndarray
@@ -66,24 +69,14 @@ class Sockets:
         ]
 
 
-def solve_sockets(table: Table) -> Sockets:
-    """Solves a touch recording.
+def solve_sockets(table: Table, named: str | None = None) -> Sockets:
+    """Solves a touch recording; `named` is the robot's address, None takes the header's.
 
     Raises:
         InputError: names the file, the row and the column.
         DegenerateGeometryError: too few touches of any point, or turns about one axis only.
     """
-    stated = table.keys.get("robot")
-    if stated is None:
-        raise MissingColumnError(
-            "joint angles without their robot", file=table.path, column="# robot", expected="it"
-        )
-    try:
-        robot = load_robot(str(stated), relative_to=table.path.parent)
-    except UnknownNameError as error:
-        raise UnknownNameError(
-            str(stated)[:80], available=error.available, what="robot", file=table.path, column="# robot"
-        ) from None
+    robot = robot_for(table, named)
     q = table.numbers([f"q{j + 1}" for j in range(robot.joint_count)])
     labels = np.array(table.text("target"))
     frames = robot.chain.frames(q)
@@ -127,7 +120,19 @@ def solve_sockets(table: Table) -> Sockets:
     )
     numbers = tuple(counts[target] for target in targets)
     name = table.path.name
-    return Sockets(name, robot.title, result, targets, points, numbers, own, placements, heldout, tools)
+    return Sockets(
+        name,
+        robot.title,
+        robot.flange,
+        result,
+        targets,
+        points,
+        numbers,
+        own,
+        placements,
+        heldout,
+        tools,
+    )
 
 
 def _tool(rotations: np.ndarray, positions: np.ndarray, labels: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -180,14 +185,14 @@ def sockets_page(found: Sockets) -> str:
     result = found.result
     lines = [
         f"{found.name}: {len(result.per_point)} touches of {len(found.targets)} points in "
-        f"{len(found.placements)} placements, {found.robot}",
+        f"{len(found.placements)} placements, {found.robot}, flange {found.flange}",
         "",
-        "tool point in the flange [mm]   value   std error between placements   if every touch erred alone",
+        "tool point in the flange [mm]   value   95% between placements   95% if every touch erred alone",
     ]
-    for axis, value, between, own in zip(
-        "xyz", mm(result.tool_point), mm(result.sigma_tool), mm(found.sigma_residual), strict=True
-    ):
-        lines.append(f"  {axis}                     {value:>12.3f} {between:>18.3f} {own:>30.3f}")
+    between_half = reach(result.dof, dimensions=1) * mm(result.sigma_tool)
+    own_half = reach(0, dimensions=1) * mm(found.sigma_residual)  # from hundreds of touches
+    for axis, value, between, own in zip("xyz", mm(result.tool_point), between_half, own_half, strict=True):
+        lines.append(f"  {axis}                     {value:>12.3f} ± {between:<20.3f} ± {own:.3f}")
     known = found.heldout[np.isfinite(found.heldout)]
     lines += [
         "",

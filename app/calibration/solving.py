@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
+import inspect
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
-
-import numpy as np
 
 from app.calibration.captures import Capture, of_role
 from app.calibration.modes import mode
@@ -19,7 +18,6 @@ from app.calibration.quality.rounding import Rounding, least_turn, rounding
 from app.calibration.result import ToolCalibration
 from app.calibration.tool import calibrate
 from app.errors import DegenerateGeometryError, InputError, UnknownNameError
-from app.units import mm
 
 #: Header key `# known_tool_mm`: the tool that touches first in the mode `reference`.
 KNOWN = "known_tool"
@@ -44,6 +42,7 @@ def solve_file(
     orientation: str | None = None,
     mode_key: str | None = None,
     options: dict[str, Any] | None = None,
+    robot: str | None = None,
 ) -> Solved:
     """Reads and solves one points file.
 
@@ -53,15 +52,19 @@ def solve_file(
         orientation: "default", "z", "zx", "xy"; None takes what the roles in the file allow.
         mode_key: solve by this wizard mode instead of touches and strokes.
         options: further options of that mode.
+        robot: the arm's address, for joints; None takes the header's.
 
     Raises:
         InputError, DegenerateGeometryError: name the file.
     """
-    points = read_points(path)
+    points = read_points(path, robot)
     try:
         if mode_key is not None:
             given = {"context": {"points": points}, **(options or {})}
-            if KNOWN in points.references:
+            if (
+                KNOWN in points.references
+                and "known_tool" in inspect.signature(mode(mode_key).solve).parameters
+            ):
                 given.setdefault("known_tool", points.references[KNOWN])
             result = mode(mode_key).solve(points.captures, **given)
         else:
@@ -105,23 +108,3 @@ def _placed(error: DegenerateGeometryError, points: Points) -> DegenerateGeometr
         file=points.path,
         said=error.said,
     )
-
-
-def to_json(result: ToolCalibration) -> dict[str, Any]:
-    """The object teachframe.tool/1: millimetres, plain lists."""
-    matrix = np.array(result.T_flange_tool.matrix)
-    matrix[:3, 3] = mm(matrix[:3, 3])
-    return {
-        "format": "teachframe.tool/1",
-        "T_flange_tool": matrix.tolist(),
-        "tool_mm": mm(result.tool_point).tolist(),
-        "quaternion_wxyz": result.T_flange_tool.quaternion.tolist(),
-        "delta_mm": mm(result.delta),
-        "per_point_mm": mm(result.per_point).tolist(),
-        "mean_mm": mm(result.mean),
-        "max_mm": mm(result.max),
-        "rms_mm": mm(result.rms),
-        "sigma_tool_mm": mm(result.sigma_tool).tolist(),
-        "condition": result.condition,
-        "warnings": [{"code": w.code, "message": str(w)} for w in result.warnings],
-    }

@@ -4,11 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from app.calibration.captures import of_role, stack
-from app.calibration.next_touch import propose
+from app.calibration.next_touch.advised import advised_touch
 from app.calibration.quality.region import ellipsoid, half_widths
 from app.calibration.solving import Solved
-from app.calibration.tool import METHODS
 from app.calibration.wording import FALLBACK, TEXTS, Phrase, name_of, phrase
 from app.errors import DegenerateGeometryError
 from app.geometry import CONVENTIONS
@@ -51,6 +49,9 @@ class _Page:
             lines.append(points.title)
         if points.note:
             lines.append(t("note", text=points.note))
+        arm = points.robot
+        if arm is not None:
+            lines.append(t("arm", robot=arm.title, joints=arm.joint_count, base=arm.base, flange=arm.flange))
         lines.append(t("position", how=self._named("method", result.method)))
         lines.append(t("axes", how=self._named("axes", result.orientation)))
         return lines
@@ -62,10 +63,10 @@ class _Page:
 
     def _point(self) -> list[str]:
         result = self._result
-        point, sigma, half = mm(result.tool_point), mm(result.sigma_tool), mm(half_widths(result))
+        point, half = mm(result.tool_point), mm(half_widths(result))
         lines = [self._t("point_head")]
-        for axis, value, error, width in zip("xyz", point, sigma, half, strict=True):
-            lines.append(f"  {axis}                      {value:>12.4f} {error:>10.3f}   ± {width:.3f}")
+        for axis, value, width in zip("xyz", point, half, strict=True):
+            lines.append(f"  {axis}                      {value:>12.4f}   ± {width:.3f}")
         if result.dof > 0:
             region = ellipsoid(result)
             long = ", ".join(f"{v:.2f}" for v in region.directions[:, 0])
@@ -94,8 +95,9 @@ class _Page:
         weighted = result.method == "robust"
         head = t("touch_head") + (t("touch_head_left") if left else "")
         lines = [(head + (t("touch_head_weight") if weighted else "")).rstrip()]
+        worst = result.worst
         for i, distance in enumerate(mm(result.per_point)):
-            mark = padded(t("worst") if i == result.worst else "", -21)
+            mark = padded(t("worst") if i == worst else "", -21)
             line = f"{i + 1:>5}{result.rows[i]:>6}{distance:>15.3f} {mark}"
             if left:
                 shown = (
@@ -143,23 +145,12 @@ class _Page:
 
     def _next_touch(self) -> list[str]:
         """The touch that would help most, in the file's own convention."""
-        result, points, t = self._result, self._points, self._t
-        touches = of_role(points.captures, "touch")
-        if self._solved.light.colour == "green" or result.method not in METHODS or not result.sigma > 0:
+        points, t = self._points, self._t
+        found = advised_touch(self._solved)
+        if found is None:
             return []
-        rotations, _ = stack(touches)
-        try:
-            found = propose(
-                rotations,
-                tool=result.tool_point,
-                spike=result.p_base,
-                touches=len(touches) + 1,
-                noise=result.sigma,
-                robot=points.robot,
-                q_near=touches[-1].q,
-            )
-        except DegenerateGeometryError as error:
-            return [t("no_next", why=error.said if isinstance(error.said, Phrase) else str(error))]
+        if isinstance(found, DegenerateGeometryError):
+            return [t("no_next", why=found.said if isinstance(found.said, Phrase) else str(found))]
         form = points.written.convention or CONVENTIONS["ZYX"]
         numbers = form.from_rotation(found.T_base_flange.rotation)
         names = [f"{n} {v:.1f}" for n, v in zip("xyz", mm(found.T_base_flange.position), strict=True)]

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from app import catalog
-from app.calibration.captures import Capture, of_role, stack, the_one
+from app.calibration.captures import Capture, forward, of_role, stack, the_one
 from app.calibration.orientation import Axis, cone, frame_from, frame_from_z, stroke_axis
 from app.calibration.result import ToolCalibration
 from app.calibration.solvers.joint import fit_joint
@@ -57,6 +57,7 @@ def calibrate(
     """
     if method not in METHODS:
         raise UnknownNameError(method, available=METHODS, what="method")
+    captures = forward(captures)
     if orientation is None:
         orientation = allowed_orientation(captures)
     if orientation not in ORIENTATIONS:
@@ -100,7 +101,7 @@ def checked(
 
 def allowed_orientation(captures: Sequence[Capture]) -> str:
     """The fullest orientation that the roles there are allow."""
-    roles = {role for c in captures for role in c.roles}
+    roles = {role.removeprefix("-") for c in captures for role in c.roles}
     if "origin" in roles:
         for key in ("zx", "xy", "z"):
             if set(ORIENTATIONS[key]) <= roles:

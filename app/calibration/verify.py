@@ -11,9 +11,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from app.calibration.quality.region import reach
 from app.calibration.result import ToolCalibration
 from app.calibration.wording import phrase
+from app.estimation import reach
 from app.geometry import Pose, exp_so3
 from app.kinematics import IkResult, RobotModel, solve_ik
 from app.units import from_deg, mm

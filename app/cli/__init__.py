@@ -13,6 +13,7 @@ import importlib
 import inspect
 import io
 import os
+import re
 import sys
 from collections.abc import Sequence
 from pathlib import Path
@@ -24,11 +25,31 @@ from app import __version__, catalog
 from app.errors import TeachframeError, one_line
 
 COMMANDS = "app.cli.commands"
+#: C0 and C1 but tab and line ends, the marks that turn the direction of writing, and halves of letters.
+_CONTROL = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f\u202a-\u202e\u2066-\u2069\ud800-\udfff]")
+
+
+class _Plain:
+    """Standard output without control characters: titles and notes of a file may hold what moves a terminal."""
+
+    def __init__(self, stream: Any):
+        self._stream = stream
+
+    def write(self, text: str) -> int:
+        return self._stream.write(
+            text if text.isprintable() else _CONTROL.sub("\N{REPLACEMENT CHARACTER}", text)
+        )
+
+    def flush(self) -> None:
+        self._stream.flush()
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._stream, name)
 
 
 def run(argv: Sequence[str]) -> int:
     """Runs a command line; never raises for a user's mistake."""
-    names = catalog.module_names(COMMANDS)
+    names = [name.replace("_", "-") for name in catalog.module_names(COMMANDS)]
     if argv and argv[0] == "--version":
         print(f"teachframe {__version__}")
         return 0
@@ -38,10 +59,18 @@ def run(argv: Sequence[str]) -> int:
     if argv[0] not in names:
         print(f"teachframe: no command {argv[0]!r}; expected one of {', '.join(names)}", file=sys.stderr)
         return 2
+    odd = next((word for word in argv if not _is_text(word)), None)
+    if odd is not None:
+        print(
+            f"teachframe {argv[0]}: {one_line(odd, 120)!r} is not UTF-8; expected a name that is",
+            file=sys.stderr,
+        )
+        return 2
     try:
-        module = importlib.import_module(f"{COMMANDS}.{argv[0]}")
+        module = importlib.import_module(f"{COMMANDS}.{argv[0].replace('-', '_')}")
         command = _parsed(module.Command, f"teachframe {argv[0]}", argv[1:])
-        return int(command.run() or 0)
+        with contextlib.redirect_stdout(_Plain(sys.stdout)):
+            return int(command.run() or 0)
     except SystemExit as stop:  # tyro's own: --help, or arguments that do not fit
         return stop.code if isinstance(stop.code, int) else 2
     except TeachframeError as error:
@@ -52,6 +81,12 @@ def run(argv: Sequence[str]) -> int:
     except BrokenPipeError:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 0
+    except OSError as error:  # the disk, not the program: no space, a name too long, no right
+        if os.environ.get("TEACHFRAME_DEBUG"):
+            raise
+        where = f"{one_line(str(error.filename), 120)}: " if error.filename else ""
+        print(f"teachframe {argv[0]}: {where}{error.strerror or type(error).__name__}", file=sys.stderr)
+        return 2
     except Exception as error:
         if os.environ.get("TEACHFRAME_DEBUG"):
             raise
@@ -61,6 +96,15 @@ def run(argv: Sequence[str]) -> int:
             file=sys.stderr,
         )
         return 1
+
+
+def _is_text(word: str) -> bool:
+    """False for bytes of a file's name that stand for no letters: no report could speak of it."""
+    try:
+        word.encode()
+    except UnicodeEncodeError:
+        return False
+    return True
 
 
 def _parsed(command: type, prog: str, argv: Sequence[str]) -> Any:
@@ -74,8 +118,9 @@ def _parsed(command: type, prog: str, argv: Sequence[str]) -> Any:
     except SystemExit as stop:
         if stop.code not in (0, None):
             frame = str.maketrans("", "", "╭╮╰╯│─")
-            lines = [line.translate(frame).strip() for line in said.getvalue().splitlines()]
-            what = next((line for line in lines[1:] if line), "the arguments do not fit")
+            lines = [line.translate(frame).strip(" |") for line in said.getvalue().splitlines()]
+            said_lines = [line for line in lines[1:] if line.strip("+-")] or ["the arguments do not fit"]
+            what = " ".join(said_lines[: 2 if said_lines[0].endswith(":") else 1])
             print(one_line(f"{prog}: {what}; `{prog} --help` shows what there is"), file=sys.stderr)
         raise
 
@@ -88,7 +133,8 @@ def _overview(names: list[str]) -> str:
         "",
     ]
     folder = Path(__file__).parent / "commands"
-    lines += [f"  {name:<10} {_first_line(folder / f'{name}.py')}" for name in names]
+    width = max(map(len, names))
+    lines += [f"  {name:<{width}} {_first_line(folder / (name.replace('-', '_') + '.py'))}" for name in names]
     return "\n".join(lines)
 
 

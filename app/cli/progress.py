@@ -17,6 +17,11 @@ class Shown:
         self._console, self._bar = console, bar
         self._task = bar.add_task("", total=1.0) if bar else None
 
+    @property
+    def watched(self) -> bool:
+        """True where a person sees the line."""
+        return self._bar is not None
+
     def update(self, share: float, doing: str) -> None:
         """Shows the share done (0..1) and what is being done."""
         if self._bar is not None and self._task is not None:

@@ -1,9 +1,13 @@
 """Where a recording and the robot's description differ: where, what, the model of it, and the improvement.
 
-result.py     Diagnosis, Finding, Evidence: what both engines give, and its JSON
-model.py      the saved model: effects with values, loaded by simulation, pendant and diagnosis
-static/       the engine for touches and tracker points
-motion/       the engine for joint logs over time
-effects/      static/ and motion/: one file an effect
-report/       the same as a page
+dispatch, judging, preview    one recording to one diagnosis; a model on a recording; a look before any search
+result, model                 what is said, and its JSON; the saved model, loaded by simulation, pendant and diagnosis
+thresholds                    the numbers that decide
+kinematic/, dynamic/          the order of work for touches and tracker points, and for joint logs
+selection/                    add, drop, swap, pairs; change points
+regression/                   designs, evidence, held-out errors, nulls; knows no robot
+effects/                      one base; kinematic/ and dynamic/: one file is all an effect needs
+models/                       kinematic/ and dynamic/: exact prediction and linear columns
+observations/                 what was recorded, checked
+report/, export/              pages and text; what a simulator reads
 """

@@ -16,6 +16,7 @@ from app.diagnosis.dispatch import diagnose_file
 from app.diagnosis.model import SavedModel
 from app.diagnosis.result import Diagnosis
 from app.errors import TeachframeError, one_line
+from app.recordings.options import ReadOptions
 
 
 @dataclass(frozen=True)
@@ -40,6 +41,7 @@ def diagnose_many(
     model: SavedModel | None = None,
     evidence: bool = False,
     seed: int = 0,
+    options: ReadOptions | None = None,
 ) -> Iterator[Outcome]:
     """Outcomes in the order of `files`, each as soon as it and all before it are there.
 
@@ -48,10 +50,10 @@ def diagnose_many(
     """
     os.environ.setdefault("OMP_NUM_THREADS", "1")  # read by the workers when they start
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
-    common = (robot, reference, model, evidence, seed)
+    common = (robot, reference, model, evidence, seed, options)
     waiting = list(files)
     while waiting:
-        with _pool(min(cores(), len(waiting))) as pool:
+        with worker_pool(min(cores(), len(waiting))) as pool:
             futures = [pool.submit(_outcome, path, *common) for path in waiting]
             done = 0
             try:
@@ -72,7 +74,8 @@ def cores() -> int:
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
-def _pool(workers: int) -> ProcessPoolExecutor:
+def worker_pool(workers: int) -> ProcessPoolExecutor:
+    """Processes of their own, each with one thread and without the warnings of libraries."""
     return ProcessPoolExecutor(workers, multiprocessing.get_context("spawn"), initializer=_quiet)
 
 
@@ -89,7 +92,7 @@ def _cancel(futures: Sequence[Future[Outcome]]) -> None:
 
 
 def _alone(path: Path, common: tuple) -> Outcome:
-    with _pool(1) as pool:
+    with worker_pool(1) as pool:
         try:
             return pool.submit(_outcome, path, *common).result()
         except BrokenProcessPool:
@@ -103,9 +106,10 @@ def _outcome(
     model: SavedModel | None,
     evidence: bool,
     seed: int,
+    options: ReadOptions | None,
 ) -> Outcome:
     try:
-        found = diagnose_file(path, robot=robot, reference=reference, model=model, seed=seed)
+        found = diagnose_file(path, robot=robot, reference=reference, model=model, seed=seed, options=options)
     except TeachframeError as error:
         return Outcome(str(path), None, str(error))
     except Exception as error:

@@ -4,21 +4,31 @@ from __future__ import annotations
 
 import xml.etree.ElementTree as ET
 from collections.abc import Callable
+from copy import deepcopy
 from pathlib import Path
 
 import numpy as np
 
 from app.diagnosis.model import ModelEffect, SavedModel
 from app.errors import InputError
+from app.files import write_bytes
 from app.geometry import convention, exp_so3
 from app.kinematics import RobotModel
 
+#: What a URDF holds exactly: where the joints stand.
+GEOMETRIC = ("joint_zero", "link_length", "link_twist")
 
-def save_corrected_urdf(robot: RobotModel, model: SavedModel, path: str | Path) -> tuple[str, ...]:
+
+def save_corrected_urdf(
+    robot: RobotModel, model: SavedModel, path: str | Path, *, strict: bool = True
+) -> tuple[str, ...]:
     """Writes the description with the model's effects in it.
 
     Zeros, lengths and twists become placements of joints, a payload becomes mass of the flange's link, friction
     becomes the joint's `<dynamics>`. What moves with load, time or direction has no word in a URDF.
+
+    Args:
+        strict: False writes the description also where nothing of the model has a word in it.
 
     Returns:
         One line for each effect that was left out.
@@ -26,24 +36,33 @@ def save_corrected_urdf(robot: RobotModel, model: SavedModel, path: str | Path) 
     Raises:
         InputError: nothing of the model can be written, or the file cannot.
     """
-    tree = ET.parse(robot.path)
-    root = tree.getroot()
+    root = _description(robot)
     left_out = [e for e in model.effects if not _written(root, robot, e)]
-    if len(left_out) == len(model.effects):
+    if strict and len(left_out) == len(model.effects):
         raise InputError(
             "none of what was found has a word in a URDF: " + ", ".join(e.effect for e in left_out),
             expected="--save-model, which holds every effect",
         )
-    try:
-        tree.write(path, encoding="utf-8", xml_declaration=True)
-    except OSError as error:
-        raise InputError(f"cannot be written ({error.strerror})", file=path) from None
+    write_bytes(path, ET.tostring(root, encoding="utf-8", xml_declaration=True))
     return tuple(f"not in the description, a URDF has no word for it: {e.effect}" for e in left_out)
+
+
+def _description(robot: RobotModel) -> ET.Element:
+    """A copy of the file's own elements; of a macro, a table, a calibrated arm what was made of it."""
+    plain = robot.path.suffix == ".urdf" and "#calibration=" not in robot.address
+    try:
+        root = ET.parse(robot.path).getroot() if plain else None
+    except ET.ParseError:  # a simulator's prefix that nobody declared
+        root = None
+    if root is None or root.find("joint") is None:  # macros that make the joints
+        root = deepcopy(robot.source)
+    assert root is not None  # every robot that was loaded has one
+    return root
 
 
 def _written(root: ET.Element, robot: RobotModel, effect: ModelEffect) -> bool:
     write = _WRITERS.get(effect.effect)
-    return write is not None and write(root, robot, effect)
+    return write is not None and bool(effect.parameters) and write(root, robot, effect)
 
 
 def _joint_zero(root: ET.Element, robot: RobotModel, effect: ModelEffect) -> bool:
@@ -66,7 +85,7 @@ def _link_twist(root: ET.Element, robot: RobotModel, effect: ModelEffect) -> boo
 
 def _link_vector(robot: RobotModel, effect: ModelEffect) -> np.ndarray | None:
     """Displacement of the placement behind the link, in that placement's frame."""
-    from app.diagnosis.static.geometry import AXES, link_axes
+    from app.diagnosis.models.kinematic.geometry import AXES, link_axes
 
     axis = effect.where.get("axis")
     if axis not in AXES:
@@ -115,10 +134,15 @@ def _joint_element(root: ET.Element, robot: RobotModel, index: int) -> ET.Elemen
 
 
 def _payload(root: ET.Element, robot: RobotModel, effect: ModelEffect) -> bool:
-    """A point mass added to the flange's link, by the parallel-axis theorem."""
+    """A point mass added to the flange's link, or to the one it is said to be on, by the parallel-axis theorem."""
     p = effect.parameters
     mass, at = p["mass"], np.array([p.get(f"com_{c}", 0.0) for c in "xyz"])
-    link = next((e for e in root.findall("link") if e.get("name") == robot.flange), None)
+    name = robot.flange
+    if "link" in effect.where:
+        joint = _joint_element(root, robot, int(effect.where["link"]) - 1)
+        child = None if joint is None else joint.find("child")
+        name = "" if child is None else child.get("link", "")
+    link = next((e for e in root.findall("link") if e.get("name") == name), None)
     if link is None or mass <= 0:
         return False
     inertial = link.find("inertial")

@@ -9,31 +9,24 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from app.diagnosis.model import SavedModel
+from app.diagnosis.model_checks import applying, fitting
 from app.diagnosis.result import Diagnosis, Progress
 from app.diagnosis.wording import kind_name, note
-from app.errors import (
-    CellValueError,
-    FileFormatError,
-    InputError,
-    MissingColumnError,
-    UnitError,
-    UnknownNameError,
-)
-from app.kinematics import RobotModel, load_robot
+from app.errors import InputError, MissingColumnError, UnknownNameError
+from app.kinematics import RobotModel
 from app.recordings import Table, read_table
+from app.recordings.arm import read_with_arm
 from app.recordings.joining import joined
+from app.recordings.matching import check_joints, check_sizes
+from app.recordings.options import ReadOptions
 
 #: Kind of recording -> the package whose `diagnose` reads it. Imported when needed.
 ENGINES = {
-    "touch": "app.diagnosis.static",
-    "tracker": "app.diagnosis.static",
-    "motion": "app.diagnosis.motion",
+    "touch": "app.diagnosis.kinematic.diagnose",
+    "tracker": "app.diagnosis.kinematic.diagnose",
+    "motion": "app.diagnosis.dynamic.diagnose",
 }
-#: The largest believable value by SI unit: joint angles, lengths, times (clocks count from 1970), torques, loads.
-_LARGEST = {"rad": 100.0, "m": 1000.0, "s": 1e11, "Nm": 1e7, "kg": 1e5, "degC": 1e4}
 #: Kinds that other commands read.
 ELSEWHERE = {"points": "teachframe solve", "arcs": "teachframe base"}
 
@@ -46,24 +39,26 @@ def diagnose_file(
     model: SavedModel | None = None,
     progress: Progress | None = None,
     seed: int = 0,
+    options: ReadOptions | None = None,
 ) -> Diagnosis:
     """Diagnoses one recording.
 
     Args:
         path: the recording.
-        robot: a shipped robot's name or a URDF's path; None takes the header's `# robot:`.
+        robot: a robot's address (name or path, and what was chosen in it); None takes the header's `# robot:`.
         reference: a motion recording of the same arm in a known good state.
         model: effects found before, taken as part of the robot.
+        options: how to read files that do not say everything themselves.
 
     Raises:
         InputError: what was given cannot be used; names file, row and column.
         Cancelled: `progress` stopped it.
     """
-    table = read_table(path)
+    table, arm = read_with_arm(path, robot, options, check=kind_of)
     kind, _ = kind_of(table)
-    arm = robot_for(table, robot)
     extra = {} if reference is None else {"reference": _reference(reference, kind, path, arm)}
-    return _diagnosed(table, arm, model, progress, seed, extra)
+    with applying(model, path):
+        return _diagnosed(table, arm, model, progress, seed, extra)
 
 
 def diagnose_together(
@@ -73,6 +68,7 @@ def diagnose_together(
     model: SavedModel | None = None,
     progress: Progress | None = None,
     seed: int = 0,
+    options: ReadOptions | None = None,
 ) -> Diagnosis:
     """Diagnoses several touch or tracker recordings of one arm as one: what they share is the arm.
 
@@ -80,18 +76,18 @@ def diagnose_together(
         InputError: one of them cannot be used, or they do not belong together.
         Cancelled: `progress` stopped it.
     """
-    tables = [read_table(path) for path in paths]
+    read = [read_with_arm(path, robot, options, check=kind_of) for path in paths]
+    tables, arms = [table for table, _ in read], [arm for _, arm in read]
     kinds = [kind_of(table)[0] for table in tables]
-    arms = [robot_for(table, robot) for table in tables]
     for table, kind, arm in zip(tables, kinds, arms, strict=True):
-        if family(kind) != "static":
+        if family(kind) != family(kinds[0]):
             raise InputError(
-                "joint logs are not joined: each follows a clock of its own",
+                f"a recording of kind {kind} and one of kind {kinds[0]} are not joined",
                 file=table.path,
                 column="kind",
-                expected="touch or tracker; for a log --reference, or --model with what another log taught",
+                expected="touches and tracker points together, or joint logs together",
             )
-        if arm.path.resolve() != arms[0].path.resolve():
+        if (arm.path.resolve(), arm.flange) != (arms[0].path.resolve(), arms[0].flange):
             raise InputError(
                 f"its robot is {arm.name} at {arm.path}",
                 file=table.path,
@@ -99,10 +95,26 @@ def diagnose_together(
                 expected=f"{arms[0].path} as in {tables[0].path}, or one --robot for all",
             )
         check_joints(table, arm)
-        check_sizes(table)
+        if family(kind) == "static":
+            check_sizes(table)
+    if family(kinds[0]) == "motion":
+        return _logs_together(tables, arms[0], model, progress)
     table, notes = joined(tables)
-    found = _diagnosed(table, arms[0], model, progress, seed, {})
+    with applying(model, paths[0]):
+        found = _diagnosed(table, arms[0], model, progress, seed, {})
     return replace(found, notes=(*notes, *found.notes))
+
+
+def _logs_together(
+    tables: Sequence[Table], arm: RobotModel, model: SavedModel | None, progress: Progress | None
+) -> Diagnosis:
+    from app.diagnosis.dynamic.diagnose import diagnose_together as learn
+
+    if model is not None and model.kind != "motion":
+        raise InputError(
+            "the model given was learnt from static recordings", expected="a model of kind motion"
+        )
+    return learn(tables, arm, progress=progress, model=model)
 
 
 def _diagnosed(
@@ -117,29 +129,24 @@ def _diagnosed(
     check_joints(table, arm)
     if family(kind) == "static":
         check_sizes(table)
-    if model is not None and model.kind != family(kind):
-        raise InputError(
-            f"the model given was learnt from {model.kind} recordings and this one is of kind {kind}",
-            file=table.path,
-            expected=f"a model of kind {family(kind)}",
-        )
+    if model is not None:
+        fitting(model, arm, family(kind), table.path)
     engine = importlib.import_module(ENGINES[kind])
     table = replace(table, keys={**table.keys, "kind": kind})
     if family(kind) == "static":
-        from app.diagnosis.doubts import check_arm, check_units, doubted
+        from app.diagnosis.doubts import check_arm, check_units
 
         check_units(table, arm)
         check_arm(table, arm)
         found: Diagnosis = engine.diagnose(table, arm, progress=progress, seed=seed, model=model)
-        found = doubted(found, arm)
     else:
         found = engine.diagnose(table, arm, progress=progress, seed=seed, model=model, **extra)
-    found = replace(found, file=str(table.path), kind=kind, notes=(*noted, *found.notes))
+    found = replace(found, file=str(table.path), kind=kind, notes=(*table.notes, *noted, *found.notes))
     if model is None:
         return found
     from app.diagnosis.judging import judge
 
-    return replace(found, judged=judge(table, arm, model, found.outliers))
+    return replace(found, judged=judge(table, arm, model))
 
 
 def family(kind: str) -> str:
@@ -190,97 +197,6 @@ def _guessed_kind(table: Table) -> str | None:
     if "t" in has and ("tau1" in has or "i1" in has):
         return "motion"
     return None
-
-
-def robot_for(table: Table, named: str | None = None) -> RobotModel:
-    """The robot named on the command line, else by the recording's header (a path is relative to the file).
-
-    Raises:
-        InputError: neither names one, or it cannot be loaded.
-    """
-    if named is not None:
-        return load_robot(named)
-    stated = table.keys.get("robot")
-    if stated is None:
-        raise MissingColumnError(
-            "no robot is named",
-            file=table.path,
-            row=1,
-            column="robot",
-            expected="--robot NAME|FILE.urdf, or a line '# robot: NAME or path relative to the file'",
-        )
-    if not isinstance(stated, str):
-        raise FileFormatError(
-            f"found {str(stated)[:40]!r}",
-            file=table.path,
-            column="robot",
-            expected="a robot's name or the path of a URDF",
-        )
-    try:
-        return load_robot(stated, relative_to=Path(table.path).parent)
-    except UnknownNameError as error:
-        raise UnknownNameError(
-            stated,
-            available=error.available,
-            what="robot (and no such file beside the recording)",
-            file=table.path,
-            column="robot",
-        ) from None
-
-
-def check_joints(table: Table, robot: RobotModel) -> None:
-    """As many joint columns as the robot has joints, turning ones in angles and sliding ones in lengths.
-
-    Raises:
-        MissingColumnError, InputError, UnitError: they do not belong together.
-    """
-    n = robot.joint_count
-    table.require(f"q{j}" for j in range(1, n + 1))
-    beyond = sorted(
-        (name for name in table.columns if re.fullmatch(r"q\d+", name) and not 1 <= int(name[1:]) <= n),
-        key=lambda name: int(name[1:]),
-    )
-    if beyond:
-        raise InputError(
-            f"robot {robot.name} has {n} joints",
-            file=table.path,
-            row=table.header_row,
-            column=table.columns[beyond[0]].name,
-            expected=f"columns q1 to q{n}, or another --robot",
-        )
-    for number, joint in enumerate(robot.joints, 1):
-        column = table.columns[f"q{number}"]
-        slides = column.unit in ("m", "mm")
-        if slides != joint.prismatic:
-            raise UnitError(
-                f"joint {number} of {robot.name} {'slides' if joint.prismatic else 'turns'}",
-                file=table.path,
-                row=table.header_row,
-                column=column.name,
-                expected=f"q{number}_m" if joint.prismatic else f"q{number}_rad or q{number}_deg",
-            )
-
-
-def check_sizes(table: Table) -> None:
-    """Angles within a hundred radians, lengths within a kilometre: beyond, a cell is broken or has another unit.
-
-    Raises:
-        CellValueError: the first cell beyond.
-    """
-    for name, column in table.columns.items():
-        unit = {"mm": "m", "deg": "rad", "ms": "s"}.get(column.unit or "", column.unit or "")
-        if not column.known or unit not in _LARGEST:
-            continue
-        beyond = np.flatnonzero(np.abs(table.number(name, missing=True)) > _LARGEST[unit])
-        if len(beyond):
-            first = int(beyond[0])
-            raise CellValueError(
-                f"found {table.raw(name)[first]}",
-                file=table.path,
-                row=int(table.rows[first]),
-                column=column.name,
-                expected=f"a value of at most {_LARGEST[unit]:g} {unit}",
-            )
 
 
 def _reference(reference: str | Path, kind: str, path: str | Path, robot: RobotModel) -> Table:

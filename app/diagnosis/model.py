@@ -13,16 +13,53 @@ import msgspec
 
 from app.diagnosis.result import Diagnosis
 from app.errors import FileFormatError, InputError
+from app.files import read_bytes, write_bytes
+from app.typed import learnt
 
 FORMAT = "teachframe.model/1"
+#: A model with the targets of a long recording is a few megabytes [bytes].
+LARGEST_FILE = 50_000_000
 
 
 class ModelEffect(msgspec.Struct, frozen=True):
-    """One effect with its values."""
+    """One effect with its values.
+
+    Args:
+        effect: its key.
+        where: its place, as in a finding.
+        parameters: values by name, SI; those that begin with `fixed_` choose the law's form.
+        named: False for what is part of the fit without being a finding: members of families, unnamed parts.
+        fades: True for what holds only between the joint ranges of `Taught`; rows that go elsewhere are predicted
+            without it.
+        along: the joint (from 1) whose range alone counts for that; 0 for all joints.
+    """
 
     effect: str
     where: dict[str, Any]
     parameters: dict[str, float]
+    named: bool = True
+    fades: bool = False
+    along: int = 0
+
+
+class Taught(msgspec.Struct, frozen=True):
+    """Where a model was learnt: away from there its unnamed parts fade out.
+
+    Args:
+        lowest, highest: range of each joint in the recording [rad or m].
+        still: numbers of joints that never moved; nothing is known of them.
+        poses: some of the recorded joint positions, spread over all of them [rad or m].
+        rows: fingerprint of the rows it was learnt from.
+        heldout_rms: held-out error there, everything refitted on the rows kept; in `unit`.
+    """
+
+    lowest: list[float] = []
+    highest: list[float] = []
+    still: list[int] = []
+    poses: list[list[float]] = []
+    rows: str = ""
+    heldout_rms: float = 0.0
+    unit: str = ""
 
 
 class SavedModel(msgspec.Struct, frozen=True):
@@ -35,6 +72,7 @@ class SavedModel(msgspec.Struct, frozen=True):
         effects: what is applied, in order.
         nuisance: fitted base, tool and targets by name [m, rad], for a repeat of the same recording.
         source: the recording it was learnt from.
+        taught: where it was learnt.
     """
 
     kind: str
@@ -42,10 +80,14 @@ class SavedModel(msgspec.Struct, frozen=True):
     effects: tuple[ModelEffect, ...] = ()
     nuisance: dict[str, list[float]] = {}
     source: str = ""
+    taught: Taught = Taught()
     format: str = FORMAT
 
     def to_dict(self) -> Mapping[str, Any]:
         return msgspec.to_builtins(self)
+
+
+_MODEL = learnt(SavedModel)
 
 
 def model_of(diagnosis: Diagnosis) -> SavedModel:
@@ -62,11 +104,8 @@ def model_of(diagnosis: Diagnosis) -> SavedModel:
 
 
 def save_model(model: SavedModel, path: str | Path) -> None:
-    """Writes a model as JSON, whole or not at all."""
-    path = Path(path)
-    temporary = path.with_name(path.name + ".part")
-    temporary.write_bytes(msgspec.json.format(msgspec.json.encode(model), indent=2) + b"\n")
-    temporary.replace(path)
+    """Writes a model as JSON, whole or not at all; raises FileFormatError where it cannot be written."""
+    write_bytes(path, msgspec.json.format(msgspec.json.encode(model), indent=2) + b"\n")
 
 
 def load_model(path: str | Path) -> SavedModel:
@@ -74,13 +113,15 @@ def load_model(path: str | Path) -> SavedModel:
 
     Raises:
         FileFormatError: not such a file.
+        InputError: a place or a number in it that cannot be.
     """
+    from app.diagnosis.model_checks import checked
+
+    data = read_bytes(path, LARGEST_FILE, FORMAT)
     try:
-        model = msgspec.json.decode(Path(path).read_bytes(), type=SavedModel)
-    except OSError as error:
-        raise FileFormatError(f"cannot be read ({error.strerror})", file=path) from None
-    except (msgspec.DecodeError, UnicodeDecodeError) as error:
+        model = _MODEL.decode(data)
+    except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as error:
         raise FileFormatError(f"not a saved model ({error})", file=path, expected=FORMAT) from None
     if model.format != FORMAT:
-        raise FileFormatError(f"its format is {model.format!r}", file=path, expected=FORMAT)
-    return model
+        raise FileFormatError(f"its format is {model.format[:40]!r}", file=path, expected=FORMAT)
+    return checked(model, path)

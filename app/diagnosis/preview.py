@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from types import SimpleNamespace
-
 import numpy as np
 
-from app.diagnosis.dispatch import check_joints, family, kind_of
+from app.diagnosis.dispatch import family, kind_of
 from app.diagnosis.model import SavedModel
 from app.diagnosis.result import Evidence
 from app.errors import InputError
 from app.kinematics import RobotModel
 from app.recordings import Table
+from app.recordings.matching import check_joints
 
 
 def preview(table: Table, robot: RobotModel, model: SavedModel | None = None) -> Evidence:
@@ -34,38 +33,28 @@ def preview(table: Table, robot: RobotModel, model: SavedModel | None = None) ->
 
 
 def _static(table: Table, robot: RobotModel, model: SavedModel | None) -> Evidence:
-    from app.diagnosis.static.evidence import evidence_of
-    from app.diagnosis.static.models import held_terms, undone
-    from app.diagnosis.static.plain import plain_fit
-    from app.diagnosis.static.reading import read_static
+    from app.diagnosis.kinematic.judging import bare, judged
+    from app.diagnosis.kinematic.pictures import evidence_of
+    from app.diagnosis.observations.pose_reading import read_static
 
     recording = read_static(table, robot)
-    before = after = plain_fit(recording, ())
-    if model is not None:
-        told = undone(model, recording, robot)
-        after = plain_fit(told, held_terms(model, told.situation, told.file))
-    outcome = SimpleNamespace(
-        before=before, found=SimpleNamespace(fitted=after), outliers=np.zeros(recording.size, bool)
-    )
-    return evidence_of(recording, outcome)
+    return evidence_of(recording, bare(recording) if model is None else judged(recording, robot, model))
 
 
 def _motion(table: Table, robot: RobotModel, model: SavedModel | None) -> Evidence:
-    from app.diagnosis.judging import WITH, torque_residuals
-    from app.diagnosis.motion.engine import ready
+    from app.diagnosis.dynamic.judging import judged
 
-    log, motion, _ = ready(table, robot)
-    samples, residuals = torque_residuals(log, robot, motion, model or SavedModel("motion", robot.name))
-    after = residuals[WITH]
+    found = judged(table, robot, model or SavedModel("motion", robot.name))
+    samples = found.samples
     return Evidence(
-        rows=log.rows[samples.centre],
-        measured=samples.y + samples.pool(samples.state.torque),
-        before=samples.y,
-        after=after,
+        rows=found.log.rows[samples.centre],
+        measured=samples.y,
+        before=found.before,
+        after=found.after,
         components=tuple(f"joint {j + 1}" for j in range(robot.joint_count)),
         unit="Nm",
-        q=samples.pool(samples.state.q),
+        q=samples.state.q,
         drivers={},
-        kept=np.asarray(samples.usable.any(axis=1)),
-        t=samples.t,
+        kept=np.asarray(samples.used.all(axis=1)),
+        t=samples.state.t,
     )

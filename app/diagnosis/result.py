@@ -91,10 +91,44 @@ class Finding:
 
 @dataclass(frozen=True)
 class Leftover:
-    """Whether structure remains after the findings, and what it follows."""
+    """Whether structure remains after the findings, and what it follows.
+
+    Args:
+        share: (0..1) of the mean square of `before`, above noise, that no named effect explains.
+    """
 
     p_value: float
     where: Mapping[str, Any]
+    share: float = 0.0
+
+
+@dataclass(frozen=True)
+class FamilyShare:
+    """One line of the error budget.
+
+    Args:
+        family: its key; `STATIC_FAMILIES` or `MOTION_FAMILIES` give the order.
+        share: (0..1) of the mean square of `before`, above noise, that is lost when the family is taken out of the
+            final model, the other families kept as they are and base, tool and touched points fitted anew.
+        heldout_rms_after: held-out error of a model with this family and all before it in the order, refitted.
+        members: indices of the findings that belong to it.
+    """
+
+    family: str
+    share: float
+    heldout_rms_after: float
+    members: tuple[int, ...] = ()
+
+
+#: Families of the error budget, in their order.
+STATIC_FAMILIES = (
+    "conventions", "zeros", "geometry", "elasticity", "gears", "play", "couplings", "load", "instrument", "events",
+    "unnamed",
+)  # fmt: skip
+MOTION_FAMILIES = (
+    "conventions", "mounting", "inertials", "friction", "rotors", "load", "drive", "timing", "couplings", "events",
+    "unnamed",
+)  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -133,6 +167,8 @@ class Evidence:
         t: (m,) time of each sample [s]; None where the recording has none.
         vectors_before: (m, 3) residual of the first point in base, from points_predicted_before [m]; static only.
         vectors_after: (m, 3) likewise with the findings in the model [m].
+        parts: family of the error budget -> (m, k) what it adds to the prediction of each component, in `unit`;
+            `before` without all of them is `after`, where the engine says them.
     """
 
     rows: np.ndarray
@@ -152,6 +188,7 @@ class Evidence:
     t: np.ndarray | None = None
     vectors_before: np.ndarray | None = None
     vectors_after: np.ndarray | None = None
+    parts: Mapping[str, np.ndarray] = field(default_factory=dict)
 
     @property
     def seconds(self) -> np.ndarray | None:
@@ -166,6 +203,7 @@ class Diagnosis:
     """Everything a diagnosis says of one recording.
 
     Args:
+        families: the error budget, in the order of the kind's families; those without a share are left out.
         notes: warnings for a person: rows doubled, masses assumed, noise unknown, a filter's choice.
         model: the found effects as data, see model.py.
         judged: a model that was given, on this recording; None where none was.
@@ -185,6 +223,7 @@ class Diagnosis:
     leftover: Leftover
     next_poses: tuple[tuple[float, ...], ...]
     seconds: float
+    families: tuple[FamilyShare, ...] = ()
     notes: tuple[str, ...] = ()
     model: Mapping[str, Any] = field(default_factory=dict)
     judged: Judged | None = None
@@ -203,6 +242,7 @@ class Diagnosis:
             "before": _plain(self.before),
             "after": _plain(self.after),
             "findings": [_finding(f) for f in self.findings],
+            "families": _plain(self.families),
             "outliers": list(self.outliers),
             "leftover": _plain(self.leftover),
             "next_poses": [list(q) for q in self.next_poses],

@@ -3,10 +3,12 @@
 fit.py            Fit: the frozen result with `summary()`
 linear.py         linear least squares through the singular value decomposition
 gauss_newton.py   non-linear least squares with analytic Jacobians
+certainty.py      how many standard errors a 95% region reaches
 """
 
+from app.estimation.certainty import LEVEL, reach
 from app.estimation.fit import Fit
 from app.estimation.gauss_newton import gauss_newton
 from app.estimation.linear import solve_linear
 
-__all__ = ["Fit", "gauss_newton", "solve_linear"]
+__all__ = ["LEVEL", "Fit", "gauss_newton", "reach", "solve_linear"]

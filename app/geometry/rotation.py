@@ -108,9 +108,14 @@ def rotation_from_quaternion(wxyz: np.ndarray) -> np.ndarray:
 
 
 def _about(axis: int, angle) -> np.ndarray:
-    vector = np.zeros((*np.shape(angle), 3))
-    vector[..., axis] = angle
-    return exp_so3(vector)
+    angle = np.asarray(angle, float)
+    c, s = np.cos(angle), np.sin(angle)
+    second, third = (axis + 1) % 3, (axis + 2) % 3
+    out = np.zeros((*angle.shape, 3, 3))
+    out[..., axis, axis] = 1.0
+    out[..., second, second] = out[..., third, third] = c
+    out[..., second, third], out[..., third, second] = -s, s
+    return out
 
 
 def rot_x(angle) -> np.ndarray:

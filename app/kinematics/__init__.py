@@ -1,9 +1,12 @@
 """Arms: what a URDF says, where the flange is, how to get it somewhere. The only package that imports pin.
 
 robot.py       RobotModel: forward kinematics, Jacobian, gravity torques, limits
-loading.py     finds a robot by name or path and reads its URDF
+description/   from the bytes of a file to the chain of joints that is the arm
+loading.py     finds a robot by name or path and reads its description
 chain.py       the arm as plain arrays, for many poses at once
 inverse.py     damped inverse kinematics that says why it stopped
+meshes.py      meshes of a person's own description, within its folder, made light
+packing.py     a description as one light zip, to be kept
 shapes.py      the solids a description draws its links with
 solids.py      the same as convex hulls and meshes, to draw and to hit
 collision.py   what the arm, its tool and its surroundings touch
@@ -14,7 +17,7 @@ import importlib
 from typing import TYPE_CHECKING, Any
 
 from app.kinematics.chain import Chain
-from app.kinematics.loading import load_robot, robot_names
+from app.kinematics.loading import load_robot, makers_tables, robot_names
 from app.kinematics.robot import Joint, RobotModel
 
 if TYPE_CHECKING:
@@ -40,6 +43,7 @@ __all__ = [
     "Joint",
     "RobotModel",
     "load_robot",
+    "makers_tables",
     "robot_names",
     "solve_ik",
 ]

@@ -19,6 +19,8 @@ class Frames:
         axes: (m, n, 3) unit direction of each joint.
         flange_rotations: (m, 3, 3).
         flange_positions: (m, 3) [m].
+        follower_positions: (m, f, 3) [m], on the axis of each joint that follows another.
+        follower_axes: (m, f, 3) unit direction of each.
     """
 
     joint_rotations: np.ndarray
@@ -26,6 +28,58 @@ class Frames:
     axes: np.ndarray
     flange_rotations: np.ndarray
     flange_positions: np.ndarray
+    follower_positions: np.ndarray
+    follower_axes: np.ndarray
+
+
+@dataclass(frozen=True, eq=False)
+class Following:
+    """A joint between two others that follows one of the chain's (URDF's `<mimic>`): q = multiplier q_master + offset.
+
+    Args:
+        before: the joint (or, if n, the flange) in front of whose own placement it stands.
+        rotation: (3, 3) of its frame in its parent's.
+        translation: (3,) [m] likewise.
+        axis: (3,) unit, in its own frame.
+        prismatic: True where it slides.
+        master: index of the joint it follows.
+        multiplier: of the master's position.
+        offset: [rad or m].
+    """
+
+    before: int
+    rotation: np.ndarray
+    translation: np.ndarray
+    axis: np.ndarray
+    prismatic: bool
+    master: int
+    multiplier: float
+    offset: float
+
+
+@dataclass(frozen=True, eq=False)
+class Step:
+    """One moving joint on the way from base to flange, for whoever walks along it.
+
+    Args:
+        body: number of what it moves: 1 to n for the chain's joints, then its followers.
+        rotation: (3, 3) of its frame on the body before.
+        translation: (3,) [m] likewise.
+        axis: (3,) unit.
+        prismatic: True where it slides.
+        source: index of the joint whose position it takes,
+        multiplier: times this,
+        offset: and this added [rad or m].
+    """
+
+    body: int
+    rotation: np.ndarray
+    translation: np.ndarray
+    axis: np.ndarray
+    prismatic: bool
+    source: int
+    multiplier: float = 1.0
+    offset: float = 0.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,6 +96,7 @@ class Chain:
         masses: (n,) [kg] of what moves with joint j; fixed attachments are merged in.
         coms: (n, 3) [m] its centre of mass, in the frame of joint j after it moved.
         inertias: (n, 3, 3) [kg m^2] about that centre.
+        followers: joints that follow one of the n, base to flange.
     """
 
     rotations: np.ndarray
@@ -53,9 +108,10 @@ class Chain:
     masses: np.ndarray
     coms: np.ndarray
     inertias: np.ndarray
+    followers: tuple[Following, ...] = ()
 
     def __post_init__(self):
-        for name in self.__dataclass_fields__:
+        for name in self.__dataclass_fields__.keys() - {"followers"}:
             array = np.array(getattr(self, name))
             array.flags.writeable = False
             object.__setattr__(self, name, array)
@@ -63,6 +119,31 @@ class Chain:
     @property
     def joint_count(self) -> int:
         return len(self.axes)
+
+    @property
+    def steps(self) -> tuple[Step, ...]:
+        """Every moving joint from base to flange, followers among them."""
+        found: list[Step] = []
+        for j in range(self.joint_count + 1):
+            for k, f in enumerate(self.followers):
+                if f.before == j:
+                    body = self.joint_count + 1 + k
+                    found.append(
+                        Step(
+                            body,
+                            f.rotation,
+                            f.translation,
+                            f.axis,
+                            f.prismatic,
+                            f.master,
+                            f.multiplier,
+                            f.offset,
+                        )
+                    )
+            if j < self.joint_count:
+                slides = bool(self.prismatic[j])
+                found.append(Step(j + 1, self.rotations[j], self.translations[j], self.axes[j], slides, j))
+        return tuple(found)
 
     def frames(
         self, q: np.ndarray, shifts: np.ndarray | None = None, turns: np.ndarray | None = None
@@ -84,8 +165,19 @@ class Chain:
         position = np.zeros((m, 3))
         joint_rotations, joint_positions = np.empty((m, n, 3, 3)), np.empty((m, n, 3))
         axes = np.empty((m, n, 3))
+        followed = np.empty((2, m, len(self.followers), 3))  # positions, axes
         for j in range(n + 1):
             last = j == n
+            for k, follower in enumerate(self.followers):
+                if follower.before == j:
+                    position = position + _times(rotation, follower.translation)
+                    rotation = _times(rotation, follower.rotation)
+                    followed[:, :, k] = position, _times(rotation, follower.axis)
+                    moved = follower.multiplier * q[:, follower.master] + follower.offset
+                    if follower.prismatic:
+                        position = position + followed[1, :, k] * moved[:, None]
+                    else:
+                        rotation = _turned(rotation, follower.axis, np.cos(moved), np.sin(moved))
             placement_r = self.flange_rotation if last else self.rotations[j]
             placement_p = self.flange_translation if last else self.translations[j]
             if shifts is not None and shifts.ndim == 2:  # the same in every pose
@@ -110,7 +202,7 @@ class Chain:
                 position = position + axes[:, j] * q[:, j, None]
             else:
                 rotation = _turned(rotation, axis, np.cos(q[:, j]), np.sin(q[:, j]))
-        return Frames(joint_rotations, joint_positions, axes, rotation, position)
+        return Frames(joint_rotations, joint_positions, axes, rotation, position, followed[0], followed[1])
 
     def jacobian_columns(self, frames: Frames, points: np.ndarray) -> np.ndarray:
         """d point / d q_j for points carried by the flange.
@@ -124,6 +216,10 @@ class Chain:
         arm = points[:, None, :] - frames.joint_positions  # (m, n, 3)
         turning = np.cross(frames.axes, arm)
         columns = np.where(self.prismatic[None, :, None], frames.axes, turning)
+        for k, follower in enumerate(self.followers):
+            axis, place = frames.follower_axes[:, k], frames.follower_positions[:, k]
+            own = axis if follower.prismatic else np.cross(axis, points - place)
+            columns[:, follower.master] += follower.multiplier * own
         return np.swapaxes(columns, 1, 2)
 
 

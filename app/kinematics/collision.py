@@ -63,7 +63,8 @@ class CollisionWorld:
     ):
         self.robot, self._model, self._data = robot, robot.model, robot.model.createData()
         self._margin = margin
-        self._ids = [0, *(robot.model.getJointId(joint.name) for joint in robot.joints)]
+        moved = (*robot.joints, *robot.followers)
+        self._ids = [0, *(robot.model.getJointId(joint.name) for joint in moved)]
         self._geometry = pin.GeometryModel()
         names: list[str] = []
         bodies: list[int] = []
@@ -191,7 +192,7 @@ def _bodies(robot: RobotModel, tool_shapes: Sequence[Shape], obstacles: Sequence
     drawn = robot_shapes(robot)
     chain = robot.chain
     T_body_flange = Pose.of(chain.flange_rotation, chain.flange_translation)
-    held = [shape.moved(robot.joint_count, T_body_flange) for shape in tool_shapes]
+    held = [shape.moved(chain.steps[-1].body, T_body_flange) for shape in tool_shapes]
     links: dict[tuple[int, str], list[Shape]] = {}
     for shape in [*drawn, *held]:
         if shape.collides:

@@ -85,16 +85,16 @@ def point_mass(mass: float, com: np.ndarray) -> np.ndarray:
     return np.concatenate([[mass], mass * com, [about[i] for i in _INERTIA_INDEX]])
 
 
-def gravity_and_force_columns(robot: RobotModel, q: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """What gravity and a force on the flange do to the joints, for many poses at once.
+def gravity_and_wrench_columns(robot: RobotModel, q: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """What gravity and a wrench at the flange do to the joints, for many poses at once.
 
     Args:
         q: (m, n).
 
     Returns:
         d torque / d gravity (m, n, 3) [Nm per m/s^2], the description's masses, and
-        d torque / d force (m, n, 3) [Nm per N]: torque a joint gives while the flange pushes on the world
-        with a force in base axes.
+        d torque / d wrench (m, n, 6) [Nm per N, Nm per Nm]: torque a joint gives while the flange pushes on the world
+        with a force, and turns it with a moment about the flange's origin, both in base axes.
     """
     chain = robot.chain
     frames = chain.frames(q)
@@ -110,7 +110,8 @@ def gravity_and_force_columns(robot: RobotModel, q: np.ndarray) -> tuple[np.ndar
         lever = axis * mass if chain.prismatic[j] else np.cross(axis, moment - mass * origin)
         gravity[:, j] = -lever
     force = np.swapaxes(chain.jacobian_columns(frames, frames.flange_positions), 1, 2)
-    return gravity, force
+    turning = np.where(np.asarray(chain.prismatic)[:, None], 0.0, frames.axes)
+    return gravity, np.concatenate([force, turning], axis=2)
 
 
 def _link_frame(chain, frames, q: np.ndarray, j: int) -> tuple[np.ndarray, np.ndarray]:

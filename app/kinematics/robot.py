@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+import xml.etree.ElementTree as ET
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -12,7 +13,7 @@ import numpy as np
 import pinocchio as pin  # pyright: ignore[reportMissingImports]  (found through a .pth hook)
 
 from app.geometry.pose import Pose
-from app.kinematics.chain import Chain
+from app.kinematics.chain import Chain, Following
 
 GRAVITY = np.array([0.0, 0.0, -9.81])  # m/s^2 in base, pin's default
 
@@ -29,17 +30,42 @@ class Joint:
     effort: float
 
 
+@dataclass(frozen=True)
+class Follower:
+    """A joint inside the arm that follows another: position = multiplier * position of the master + offset.
+
+    Args:
+        name: its own.
+        prismatic: True where it slides.
+        master: index of the joint it follows.
+        multiplier: of the master's position.
+        offset: [rad or m].
+    """
+
+    name: str
+    prismatic: bool
+    master: int
+    multiplier: float
+    offset: float
+
+
 @dataclass(frozen=True, eq=False)
 class RobotModel:
-    """A serial arm of 1 to 8 joints.
+    """A serial arm of one joint or more.
 
     Args:
         name: catalogue name, or the file's stem.
-        path: the URDF.
+        path: the file it was read from.
         joints: in the description's order; users count them from 1.
         model: pin's model.
         flange: name of the link tools are bolted to.
         description: robot.toml of a shipped robot; empty for a bare URDF.
+        base: name of the link whose frame poses are in.
+        address: what loads this very arm again: file, and what was chosen in it.
+        urdf: the arm alone as a small URDF, see description/plain.py.
+        followers: joints inside the arm that follow one of `joints`, base to flange.
+        source: the whole description, for what is drawn.
+        kept: what was worked out of it once and is too large to work out again, by the name of who did.
     """
 
     name: str
@@ -48,7 +74,20 @@ class RobotModel:
     model: pin.Model
     flange: str
     description: dict[str, Any]
+    base: str = ""
+    address: str = ""
+    urdf: str = field(default="", repr=False)
+    followers: tuple[Follower, ...] = ()
+    source: ET.Element | None = field(default=None, repr=False)
+    kept: dict[str, Any] = field(default_factory=dict, repr=False)
     _local: threading.local = field(default_factory=threading.local, repr=False)
+
+    def __getstate__(self) -> dict[str, Any]:
+        """For another process: without what is worked out again there."""
+        return {**self.__dict__, "kept": {}, "_local": None}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self.__dict__.update({**state, "_local": threading.local()})
 
     @property
     def title(self) -> str:
@@ -98,7 +137,7 @@ class RobotModel:
 
     @cached_property
     def flange_id(self) -> int:
-        return self.model.getFrameId(self.flange)
+        return self.model.getFrameId(self.flange, pin.FrameType.BODY)  # joints may bear the same name
 
     @property
     def data(self) -> pin.Data:
@@ -195,4 +234,32 @@ class RobotModel:
             masses=np.array([i.mass for i in inertias]),
             coms=np.array([i.lever for i in inertias]),
             inertias=np.array([i.inertia for i in inertias]),
+            followers=self._followings(),
         )
+
+    def _followings(self) -> tuple[Following, ...]:
+        """Where the followers stand in the chain."""
+        if not self.followers:
+            return ()
+        elements = {e.get("name"): e for e in ET.fromstring(self.urdf).findall("joint")}
+        order = list(self.model.names)[1:]
+        own = [joint.name for joint in self.joints]
+        found = []
+        for follower in self.followers:
+            place = self.model.jointPlacements[self.model.getJointId(follower.name)]
+            stated = elements[follower.name].find("axis")
+            assert stated is not None  # plain.py writes one for every moving joint
+            axis = np.array(stated.get("xyz", "1 0 0").split(), float)
+            found.append(
+                Following(
+                    before=sum(name in own for name in order[: order.index(follower.name)]),
+                    rotation=place.rotation.copy(),
+                    translation=place.translation.copy(),
+                    axis=axis / np.linalg.norm(axis),
+                    prismatic=follower.prismatic,
+                    master=follower.master,
+                    multiplier=follower.multiplier,
+                    offset=follower.offset,
+                )
+            )
+        return tuple(found)

@@ -1,7 +1,7 @@
 """Solids a description draws its links with: boxes, cylinders, spheres and what is made of them.
 
-Read from `<visual>`. Two attributes of our own refine a drawing; other readers pass over them and still
-see the plain primitive:
+Read from `<visual>` (from `<collision>` where a link has no other). Two attributes of our own refine a drawing;
+other readers pass over them and still see the plain primitive:
 
     <cylinder radius=".." length=".." top_radius=".."/>   a cone frustum, narrower (or wider) at +Z
     <visual hull="NAME">                                   solids of one link with the same NAME are joined
@@ -19,10 +19,13 @@ import numpy as np
 
 from app.errors import FileFormatError
 from app.geometry.pose import Pose
-from app.geometry.rotation import rot_x, rot_y, rot_z
+from app.kinematics.description.placing import origin_pose
+from app.kinematics.description.reading import read_description
+from app.kinematics.meshes import Mesh, MeshFolder
 
 GREY = (0.55, 0.57, 0.60)
 KINDS = ("box", "cylinder", "sphere")
+_SMALLEST = 1e-5  # m: a solid thinner than this has no hull and nobody sees it
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,12 +36,13 @@ class Shape:
         body: 0 the base, k what joint k moves.
         link: name of the link it belongs to, for messages.
         kind: "box" (size: edges x, y, z), "cylinder" (radius, length, radius at +Z), "sphere" (radius) [m],
-            "halfspace" (no size: everything below its own XY plane; only for collision).
+            "halfspace" (no size: everything below its own XY plane; only for collision), "mesh" (no size).
         size: as the kind says.
         T_body_shape: where it sits.
         colour: red, green, blue, each 0..1.
         hull: shapes of one body with the same text are joined by their convex hull; "" stands alone.
         collides: False for what is only drawn.
+        mesh: what is drawn of a "mesh"; what can be hit is its convex hull.
     """
 
     body: int
@@ -49,6 +53,7 @@ class Shape:
     colour: tuple[float, float, float] = GREY
     hull: str = ""
     collides: bool = True
+    mesh: Mesh | None = None
 
     def moved(self, body: int, T_body_old: Pose) -> Shape:
         """The same shape on another body."""
@@ -81,51 +86,78 @@ def floor(height: float = 0.0, *, link: str = "floor") -> Shape:
 
 
 def read_shapes(path: Path, joint_names: tuple[str, ...]) -> tuple[Shape, ...]:
-    """Primitives of every link of a URDF, on the moving bodies they belong to.
-
-    Links beyond joints that are not in `joint_names` (grippers) are drawn with those joints at zero.
-    Meshes are passed over.
+    """Primitives of every link of a URDF, on the moving bodies they belong to; meshes are passed over.
 
     Args:
         path: the URDF.
         joint_names: the arm's joints in order; body k is what the k-th moves.
     """
-    root = ET.parse(path).getroot()
+    return shapes_of(read_description(path), joint_names, path)
+
+
+def shapes_of(
+    root: ET.Element,
+    joint_names: tuple[str, ...],
+    path: Path,
+    *,
+    base: str | None = None,
+    meshes: MeshFolder | None = None,
+) -> tuple[Shape, ...]:
+    """What a checked description draws, on the moving bodies it belongs to.
+
+    Links beyond joints that are not in `joint_names` (grippers) are drawn with those joints at zero.
+
+    Args:
+        root: the description.
+        joint_names: the arm's joints in order; body k is what the k-th moves.
+        path: the file, for messages.
+        base: the link body 0 is in; None the root. What does not hang on it is left out.
+        meshes: where meshes are; None passes them over.
+    """
     colours = {m.get("name", ""): _rgb(m) for m in root.findall("material")}
+    bodies = {name: k for k, name in enumerate(joint_names, 1)}
     parent: dict[str, tuple[str, Pose, int]] = {}
     for joint in root.findall("joint"):
         child, mother = joint.find("child"), joint.find("parent")
-        if child is None or mother is None:
-            continue
-        name = joint.get("name", "")
-        body = joint_names.index(name) + 1 if name in joint_names else 0
-        parent[child.get("link", "")] = (mother.get("link", ""), _origin(joint, path), body)
+        if child is not None and mother is not None:
+            body = bodies.get(joint.get("name", ""), 0)
+            parent[child.get("link", "")] = (mother.get("link", ""), origin_pose(joint), body)
 
-    def place(link: str) -> tuple[int, Pose]:
-        """The moving body a link is fixed to, and where on it."""
+    def place(link: str) -> tuple[int, Pose] | None:
+        """The moving body a link is fixed to, and where on it; None where it does not hang on the base."""
         pose = Pose.identity()
-        while link in parent:
+        for _ in range(len(parent) + 1):
+            if link == base or link not in parent:
+                return (0, pose) if base is None or link == base else None
             mother, step, body = parent[link]
             if body:  # its frame is where the joint has moved it
                 return body, pose
             pose, link = step @ pose, mother
-        return 0, pose
+        return None
 
     shapes = []
     for link in root.findall("link"):
         name = link.get("name", "")
-        visuals = link.findall("visual")
-        body, T_body_link = place(name) if visuals else (0, Pose.identity())
+        visuals = link.findall("visual") or link.findall("collision")
+        found = place(name) if visuals else None
+        if found is None:
+            continue
         for visual in visuals:
-            shape = _shape(visual, name, colours, path)
+            shape = _shape(visual, name, colours, path, meshes)
             if shape is not None:
-                shapes.append(shape.moved(body, T_body_link))
+                shapes.append(shape.moved(*found))
     return tuple(shapes)
 
 
-def _shape(visual: ET.Element, link: str, colours: dict, path: Path) -> Shape | None:
+def _shape(
+    visual: ET.Element, link: str, colours: dict, path: Path, meshes: MeshFolder | None
+) -> Shape | None:
     geometry = visual.find("geometry")
-    element = next((e for e in (geometry if geometry is not None else ()) if e.tag in KINDS), None)
+    inner = () if geometry is None else geometry
+    drawn = next((e for e in inner if e.tag == "mesh"), None)
+    if drawn is not None and meshes is not None:
+        return _mesh_shape(visual, drawn, link, colours, meshes)
+    element = next((e for e in inner if e.tag in KINDS), None)
     if element is None:
         return None
     try:
@@ -142,40 +174,42 @@ def _shape(visual: ET.Element, link: str, colours: dict, path: Path) -> Shape | 
         raise FileFormatError(
             f"a {element.tag} of link {link!r} lacks its size", file=path, expected="numbers"
         )
-    material = visual.find("material")
-    colour = GREY
-    if material is not None:
-        colour = _rgb(material) or colours.get(material.get("name", "")) or GREY
+    if min(size[:2] if element.tag == "cylinder" else size) < _SMALLEST:
+        return None
     return Shape(
         0,
         link,
         element.tag,
         size,
-        _origin(visual, path),
-        colour,
+        origin_pose(visual),
+        _colour(visual, colours) or GREY,
         visual.get("hull", ""),
         visual.get("collide", "yes") != "no",
     )
+
+
+def _mesh_shape(
+    visual: ET.Element, element: ET.Element, link: str, colours: dict, meshes: MeshFolder
+) -> Shape | None:
+    scale = np.array(element.get("scale", "1 1 1").split(), float)
+    mesh = meshes.load(element.get("filename", ""), link, scale)
+    if mesh is None:
+        return None
+    colour = _colour(visual, colours) or mesh.colour or GREY
+    return Shape(0, link, "mesh", (), origin_pose(visual), colour, mesh=mesh)
+
+
+def _colour(visual: ET.Element, colours: dict) -> tuple[float, float, float] | None:
+    material = visual.find("material")
+    return None if material is None else _rgb(material) or colours.get(material.get("name", ""))
 
 
 def _rgb(material: ET.Element) -> tuple[float, float, float] | None:
     colour = material.find("color")
     if colour is None:
         return None
-    values = [float(v) for v in colour.get("rgba", "0.5 0.5 0.5 1").split()]
-    return values[0], values[1], values[2]
-
-
-def _origin(element: ET.Element, path: Path) -> Pose:
-    origin = element.find("origin")
-    if origin is None:
-        return Pose.identity()
-    try:
-        x, y, z = (float(v) for v in origin.get("xyz", "0 0 0").split())
-        roll, pitch, yaw = (float(v) for v in origin.get("rpy", "0 0 0").split())
-    except ValueError:
-        raise FileFormatError("an <origin> is not three numbers", file=path, expected="xyz and rpy") from None
-    return Pose.of(rot_z(yaw) @ rot_y(pitch) @ rot_x(roll), np.array([x, y, z]))
+    red, green, blue = (min(max(float(v), 0.0), 1.0) for v in colour.get("rgba", "0.5 0.5 0.5 1").split()[:3])
+    return red, green, blue
 
 
 def _z_along(direction: np.ndarray) -> np.ndarray:

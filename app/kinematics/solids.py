@@ -8,11 +8,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
+from app.kinematics.meshes import Mesh, MeshFolder
 from app.kinematics.robot import RobotModel
-from app.kinematics.shapes import Shape, ball, read_shapes, rod
+from app.kinematics.shapes import Shape, ball, read_shapes, rod, shapes_of
 
 _CHAMFER = 0.12  # of a solid's smallest extent
 _LARGEST_CHAMFER = 0.012  # m
@@ -29,6 +31,7 @@ class Solid:
         points: (k, 3) [m] in the body's frame; the solid is their convex hull.
         colour: red, green, blue, each 0..1.
         collides: False for what is only drawn.
+        mesh: triangles to draw in place of the hull, in the body's frame; None where the hull is what is drawn.
     """
 
     body: int
@@ -36,6 +39,7 @@ class Solid:
     points: np.ndarray
     colour: tuple[float, float, float]
     collides: bool
+    mesh: Mesh | None = None
 
 
 def robot_solids(robot: RobotModel) -> tuple[Solid, ...]:
@@ -48,9 +52,27 @@ def robot_shapes(robot: RobotModel) -> tuple[Shape, ...]:
 
     A description whose meshes are elsewhere draws too little of itself: less than half of its bodies.
     """
-    shapes = read_shapes(robot.path, tuple(joint.name for joint in robot.joints))
-    drawn = {shape.body for shape in shapes} - {0}
-    return shapes if 2 * len(drawn) >= robot.joint_count else stick_figure(robot)
+    return _drawn(robot)[0]
+
+
+def missing_meshes(robot: RobotModel) -> tuple[str, ...]:
+    """One line for every mesh that the description names and that is not drawn, with the reason."""
+    return _drawn(robot)[1]
+
+
+def _drawn(robot: RobotModel) -> tuple[tuple[Shape, ...], tuple[str, ...]]:
+    """Shapes and missing meshes; read once a robot, since meshes are large."""
+    if robot.source is None:
+        return stick_figure(robot), ()
+    if "shapes" not in robot.kept:
+        folder = MeshFolder(robot.path)
+        names = tuple(j.name for j in (*robot.joints, *robot.followers))
+        shapes = shapes_of(robot.source, names, robot.path, base=robot.base, meshes=folder)
+        drawn = {shape.body for shape in shapes} - {0}
+        if 2 * len(drawn) < robot.joint_count:
+            shapes = stick_figure(robot)
+        robot.kept["shapes"] = shapes, folder.missing
+    return robot.kept["shapes"]
 
 
 def tool_shapes(robot: RobotModel) -> tuple[Shape, ...]:
@@ -72,6 +94,7 @@ def solids(shapes: Sequence[Shape]) -> tuple[Solid, ...]:
             np.concatenate([shape.T_body_shape.apply(outline(shape)) for shape in family]),
             family[0].colour,
             family[0].collides,
+            family[0].mesh.placed(family[0].T_body_shape) if family[0].mesh is not None else None,
         )
         for family in families.values()
     )
@@ -83,6 +106,8 @@ def outline(shape: Shape, chamfer: float = _CHAMFER) -> np.ndarray:
     Args:
         chamfer: how much of its smallest extent an edge loses, to look cast rather than cut; 0 is sharp.
     """
+    if shape.mesh is not None:
+        return shape.mesh.hull
     if shape.kind == "sphere":
         return _sphere_points(shape.size[0])
     if shape.kind == "box":
@@ -110,8 +135,16 @@ def faces(points: np.ndarray, crease: float = 0.6) -> tuple[np.ndarray, np.ndarr
     A viewer that averages the normals of shared vertices then shows rounds round and edges sharp.
 
     Returns:
-        vertices (k, 3), triangles (t, 3), wound outwards.
+        vertices (k, 3), triangles (t, 3), wound outwards; neither may be written to, because the same solid drawn
+        again, in another session, is not worked out again.
     """
+    points = np.ascontiguousarray(points, float)
+    return _faces(points.tobytes(), crease)
+
+
+@lru_cache(maxsize=1024)
+def _faces(packed: bytes, crease: float) -> tuple[np.ndarray, np.ndarray]:
+    points = np.frombuffer(packed).reshape(-1, 3)
     from scipy.spatial import ConvexHull  # slow to load; a session has many parts that draw nothing
 
     hull = ConvexHull(points)
@@ -130,7 +163,10 @@ def faces(points: np.ndarray, crease: float = 0.6) -> tuple[np.ndarray, np.ndarr
     group = np.array([_root(smooth, i) for i in range(len(triangles))])
     keys = np.stack([triangles.ravel(), np.repeat(group, 3)], axis=1)
     unique, inverse = np.unique(keys, axis=0, return_inverse=True)
-    return points[unique[:, 0]], inverse.reshape(-1, 3)
+    vertices, triangles = points[unique[:, 0]], inverse.reshape(-1, 3)
+    for drawn in (vertices, triangles):
+        drawn.setflags(write=False)
+    return vertices, triangles
 
 
 def stick_figure(robot: RobotModel) -> tuple[Shape, ...]:
@@ -138,18 +174,26 @@ def stick_figure(robot: RobotModel) -> tuple[Shape, ...]:
     chain = robot.chain
     scale = max(robot.reach, 0.1)
     thick, dark = 0.035 * scale, (0.25, 0.27, 0.30)
-    foot = chain.rotations[0] @ chain.axes[0] * thick
+    steps = chain.steps
+    foot = steps[0].rotation @ steps[0].axis * thick
     shapes = [rod(np.zeros(3), foot, 2.4 * thick, 2.0 * thick, link="base", colour=dark)]
-    spans = [*chain.translations, chain.flange_translation]
-    for body, span in enumerate(spans):
-        if np.linalg.norm(span) > thick:
-            link = f"link {body}" if body else "base"
-            shapes.append(_on(body, rod(np.zeros(3), span, thick, 0.8 * thick, link=link)))
-        if body < robot.joint_count:
-            axis = chain.axes[body] * 1.6 * thick
-            shapes.append(_on(body + 1, rod(-axis, axis, 1.3 * thick, link=f"joint {body + 1}", colour=dark)))
-    shapes.append(_on(robot.joint_count, ball(chain.flange_translation, thick, link="flange")))
+    body = 0
+    for step in steps:
+        shapes += _rod_along(body, step.translation, thick)
+        body = step.body
+        axis = step.axis * 1.6 * thick
+        shapes.append(_on(body, rod(-axis, axis, 1.3 * thick, link=f"joint {body}", colour=dark)))
+    shapes += _rod_along(body, chain.flange_translation, thick)
+    shapes.append(_on(body, ball(chain.flange_translation, thick, link="flange")))
     return tuple(shapes)
+
+
+def _rod_along(body: int, span: np.ndarray, thick: float) -> list[Shape]:
+    """A rod from a body's origin along (3,) [m], where that is long enough to be seen."""
+    if np.linalg.norm(span) <= thick:
+        return []
+    link = f"link {body}" if body else "base"
+    return [_on(body, rod(np.zeros(3), span, thick, 0.8 * thick, link=link))]
 
 
 def _on(body: int, shape: Shape) -> Shape:

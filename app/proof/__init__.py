@@ -2,5 +2,6 @@
 
 generator/    arms, effects and recordings with a forward model of its own; knows nothing of the diagnosis
 strata/       which cases are drawn, one file a stratum
+whole.py      when an answer about an arm that is off everywhere is right
 matching.py   when an answer is right: every rule and every inherent alias, in one place
 """

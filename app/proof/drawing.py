@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from app import catalog
-from app.errors import InputError
+from app.errors import InputError, UnknownNameError
 from app.proof.draft import Draft, Stratum
 from app.proof.generator.files import term_json, write_static
 from app.proof.generator.static.clutter import as_built, misweighed
@@ -32,9 +32,20 @@ PLAIN = 0.25
 HIDDEN = ("alias",)
 
 
-def strata_of(package: str, count: int) -> list[str]:
-    """Which stratum each of `count` cases belongs to, by their shares; every stratum at least once."""
-    strata = catalog.members(package, "STRATUM")
+def strata_of(packages: Sequence[str], count: int, only: Sequence[str] = ()) -> list[str]:
+    """Which stratum each of `count` cases belongs to, by their shares; every stratum at least once.
+
+    Args:
+        only: keys of the strata to take; all of them unless given.
+
+    Raises:
+        UnknownNameError: no such stratum.
+    """
+    strata = {k: s for package in packages for k, s in catalog.members(package, "STRATUM").items()}
+    for key in only:
+        if key not in strata:
+            raise UnknownNameError(key, available=strata, what="stratum")
+    strata = {k: s for k, s in strata.items() if not only or k in only}
     total = sum(s.share for s in strata.values())
     each = {key: max(1, round(count * stratum.share / total)) for key, stratum in strata.items()}
     while sum(each.values()) < count:

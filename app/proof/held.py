@@ -8,13 +8,15 @@ from typing import Any
 from app import catalog
 from app.diagnosis.dispatch import family
 from app.diagnosis.model import ModelEffect, SavedModel
-from app.diagnosis.static.conventions import QUARTER, SIGN, SWAP
+from app.diagnosis.observations.conventions import QUARTER, SIGN, SWAP
 from app.errors import InputError, UnknownNameError
+from app.kinematics import load_robot
 from app.proof.generator.effects.term import Term
 from app.proof.generator.motion.cell import LAWS as MOTION_LAWS
 from app.proof.generator.static.cell import LAWS as STATIC_LAWS
-from app.proof.generator.urdf import find_robot, read_arm
 
+#: Parts of a saved model that describe one recording, or have no law: none of an arm that is made anew.
+NOT_DRAWN = frozenset({"smooth_torque", "rest_friction"})
 _FIXED = "fixed_"  # how a saved model marks values that choose a law's form
 _COUNTED = ("joint", "source_joint", "link")
 #: Kind of recording -> the effect that only the other kind has.
@@ -36,7 +38,7 @@ def terms_of(
 
     Args:
         kind: of the recording to be made: touch, tracker or motion.
-        robot: a shipped name or the path of a URDF.
+        robot: the arm's address.
         samples: rows that are made.
         seconds: length of the log (motion).
         file: the model's file, for messages.
@@ -55,10 +57,13 @@ def terms_of(
             expected=f"--kind of {model.kind}",
         )
     laws = catalog.members(MOTION_LAWS if model.kind == "motion" else STATIC_LAWS, "EFFECT")
-    joints = read_arm(find_robot(robot)).n
+    joints = load_robot(robot).joint_count
     terms: list[Term] = []
     left_out: list[str] = []
     for effect in model.effects:
+        if effect.effect in NOT_DRAWN:
+            left_out.append(f"left out of the simulation: {effect.effect} (no law that the simulation draws)")
+            continue
         if effect.effect not in laws:
             raise UnknownNameError(
                 effect.effect, available=laws, what=f"{model.kind} effect in the saved model", file=file

@@ -1,9 +1,9 @@
 """When an answer is right. Every rule the scorer follows stands here.
 
 Names. A finding names a truth when the effect's key is the same and every part of `where` that tells places
-apart is the same: joint, source_joint, link, axis, body, and for backlash the driver. A part the finding leaves out
-(an axis that cannot be told) is not held against it; a part it states must be right. A step's row may be
-`ROWS` rows off, a time `SECONDS` seconds.
+apart is the same: joint, source_joint, link, axis, body, for backlash the driver and for gears the waves a turn (one
+where it is not said). A part the finding leaves out (an axis that cannot be told) is not held against it; a part it
+states must be right. A step's row may be `ROWS` rows off, a time `SECONDS` seconds.
 
 Places. Joint, link, body or instrument without the name of the effect. Link k and joint k are different places.
 Where nothing was named, the place that the left-over points at counts as the place said.
@@ -19,7 +19,8 @@ changes sign and that joint's zero, indentation along the tool and the tool's le
 Reported set. A truth is in the set when a finding, or any alternative listed with a finding, names it.
 
 Not scored as names: geometry (joint_zero, link_length, link_twist) where all of the arm's geometry is off,
-because it is true there, dry and viscous friction where every joint of the arm has some; and effects that survive
+because it is true there, dry and viscous friction where every joint of the arm has some, a link's masses where one
+factor is on all torques, because nobody without a known mass can tell these apart; and effects that survive
 by less than `SURVIVES`, which are counted apart.
 """
 
@@ -54,6 +55,11 @@ def names(said: Mapping[str, Any], effect: str, where: Where) -> bool:
         # a joint or link that must be told and is not
         if key in ("joint", "link") and key in where and key not in stated:
             return False
+    if effect == "gear_eccentricity" and stated.get("order", 1) != where.get("order", 1):
+        return False
+    # one factor for all torques is not one joint's
+    if effect == "torque_constant" and ("joint" in stated) != ("joint" in where):
+        return False
     return _times_match(stated, where)
 
 
@@ -76,7 +82,7 @@ def at_place(where: Where, truth: Mapping[str, Any]) -> bool:
     """True where this is the truth's place, or an alias's."""
     said = place_of(where)
     if said is None and not where.get("driver"):
-        return False
+        return not where and not truth["where"]  # one factor for all torques has the whole arm for a place
     true = [truth["where"], *(alias["where"] for alias in truth.get("lookalikes", ()))]
     # What acts on the whole arm (late torques) has its driver for a place.
     return any(
@@ -97,6 +103,8 @@ def in_set(findings: Sequence[Mapping[str, Any]], truth: Mapping[str, Any]) -> b
 def counted(findings: Sequence[Mapping[str, Any]], answer: Mapping[str, Any]) -> list[Mapping[str, Any]]:
     """The findings that are held against, or for, the diagnosis."""
     true = (*(GEOMETRIC if answer.get("clutter_mm") else ()), *(FRICTION if answer.get("friction") else ()))
+    if any(t["effect"] == "torque_constant" and "joint" not in t["where"] for t in answer["truth"]):
+        true = (*true, "link_inertia")
     return [f for f in findings if f["effect"] not in true]
 
 

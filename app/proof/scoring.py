@@ -4,41 +4,15 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
 from app.proof.intervals import Rate
+from app.proof.lines import Line
+from app.proof.scoring_whole import transfer_summary, whole_lines
 from app.proof.verdicts import Judged
-
-
-@dataclass(frozen=True)
-class Line:
-    """One line of the scorecard.
-
-    Args:
-        key, title: what is counted.
-        rate: how often it happened.
-        aim: what it should be; `at_most` says in which direction.
-    """
-
-    key: str
-    title: str
-    rate: Rate
-    aim: float | None = None
-    at_most: bool = False
-    also_at_most: float | None = None
-
-    @property
-    def met(self) -> bool | None:
-        """Is the measured rate on the right side of its aim; None without an aim or a case."""
-        value = self.rate.value
-        if self.aim is None or value is None:
-            return None
-        if self.at_most:
-            return value <= self.aim
-        return value >= self.aim and (self.also_at_most is None or value <= self.also_at_most)
 
 
 @dataclass(frozen=True)
@@ -51,14 +25,17 @@ class Score:
     effects: Sequence[tuple[str, Rate, Rate, Rate]]
     strata: Sequence[tuple[str, Rate]]
     coverage: Mapping[str, Rate]
+    transfer: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
 
 
 AIMS: dict[str, dict[str, float]] = {
-    "static": {"clean": 0.01, "place": 0.97, "name": 0.93, "set": 0.98, "pair": 0.80, "outside": 0.05},
-    "motion": {"clean": 0.01, "place": 0.95, "name": 0.90, "set": 0.98, "pair": 0.80, "outside": 0.10},
+    "static": {"clean": 0.01, "place": 0.99, "name": 0.99, "set": 0.98, "pair": 0.98, "outside": 0.05},
+    "motion": {"clean": 0.01, "place": 0.98, "name": 0.98, "set": 0.98, "pair": 0.98, "outside": 0.05},
 }
 CLUTTER = {"static": "one effect, all geometry off", "motion": "one effect, friction in every joint"}
 COVERED = (0.92, 0.98)
+#: Clean recordings that are called anything else.
+NOT_CLEAN = 0.05
 #: Held-out error over the noise floor, median of the cases answered rightly.
 HELDOUT = 1.05
 
@@ -66,6 +43,7 @@ HELDOUT = 1.05
 def score(cases: Sequence[Judged], family: str) -> Score:
     """Rates of one family of recordings ("static" or "motion")."""
     aim = AIMS[family]
+    everything, cases = cases, [c for c in cases if c.whole is None]
     ordinary = _in(cases, "single")
     cluttered = _in(cases, "clutter")
     everyone = [c for c in cases if c.seen and len(c.answer["truth"]) == 1]
@@ -87,6 +65,8 @@ def score(cases: Sequence[Judged], family: str) -> Score:
             "clean_alarm",
             "clean, not called clean (unexplained included)",
             _rate(_in(cases, "clean"), lambda c: c.verdict != "clean"),
+            NOT_CLEAN,
+            True,
         ),
         *_located("single", "one effect", ordinary, aim),
         *_located("clutter", CLUTTER[family], cluttered, aim),
@@ -124,10 +104,10 @@ def score(cases: Sequence[Judged], family: str) -> Score:
         Line(
             "cover", "stated 95% intervals that hold", _coverage(cases), COVERED[0], also_at_most=COVERED[1]
         ),
-        Line("error", "refused or failed", _rate(cases, lambda c: c.verdict == "error"), 0.0, True),
+        Line("error", "refused or failed", _rate(everything, lambda c: c.verdict == "error"), 0.0, True),
     ]
     return Score(
-        lines=[line for line in lines if line.rate.cases],
+        lines=[*(line for line in lines if line.rate.cases), *whole_lines(everything)],
         confusion=_confusion(cases),
         heldout=[
             (c.answer["stratum"], c.heldout) for c in cases if c.heldout is not None and (c.right or c.empty)
@@ -137,6 +117,7 @@ def score(cases: Sequence[Judged], family: str) -> Score:
             (s, _rate(_in(cases, s), lambda c: c.right)) for s in sorted({c.answer["stratum"] for c in cases})
         ],
         coverage=_coverage_by_effect(cases),
+        transfer={k: t for k in ("transfer", "over_best") if (t := transfer_summary(everything, k))},
     )
 
 

@@ -7,7 +7,8 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from app.proof.matching import SURVIVES, TELLABLE, at_place, counted, in_set, names_truth
-from app.units import SI_FACTORS
+from app.proof.units_said import si_factor
+from app.proof.whole import Whole, judge_whole
 
 Answer = Mapping[str, Any]
 Said = Mapping[str, Any]
@@ -28,6 +29,7 @@ class Judged:
         covered: (effect, parameter, inside) of each parameter of a truth named right.
         heldout: held-out error over the true noise, where that can be said.
         empty: no finding is right here, whatever it is (nothing wrong, hidden, or outside the library).
+        whole: the score of an arm that is off everywhere, see whole.py.
     """
 
     answer: Answer
@@ -41,6 +43,7 @@ class Judged:
     covered: Sequence[tuple[str, str, bool]] = field(default=())
     heldout: float | None = None
     empty: bool = False
+    whole: Whole | None = None
 
     @property
     def verdict(self) -> str:
@@ -81,6 +84,7 @@ def judge(answer: Answer, said: Said, outside: frozenset[str] = frozenset()) -> 
         covered=list(_covered(findings, truths)),
         heldout=_heldout(answer, said),
         empty=strange or not truths,
+        whole=judge_whole(answer, said, outside) if "whole" in answer else None,
     )
 
 
@@ -98,15 +102,6 @@ def _covered(findings: Sequence[Mapping[str, Any]], truths: Sequence[Mapping[str
                 factor = si_factor(parameter.get("unit") or "")
                 inside = abs(value * factor - true) <= Z95 * std * factor
                 yield truth["effect"], parameter["name"], bool(inside)
-
-
-def si_factor(unit: str) -> float:
-    """Factor to SI of a unit such as `mm`, `deg/s` or `rad/Nm`."""
-    above, _, below = unit.partition("/")
-    factor = SI_FACTORS.get(above.strip(), 1.0)
-    for part in below.replace("*", " ").split() if below else ():
-        factor /= SI_FACTORS.get(part, 1.0)
-    return factor
 
 
 def _heldout(answer: Answer, said: Said) -> float | None:

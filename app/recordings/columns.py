@@ -30,7 +30,7 @@ _QUANTITIES: tuple[tuple[re.Pattern[str], tuple[str, ...]], ...] = tuple(
         (r"length", _LENGTH),
         (r"[abc]", _ANGLE),
         (r"angle", _ANGLE),
-        (r"t", ("s", "ms")),
+        (r"t", ("s", "ms", "us", "ns", "iso")),
         (r"temperature\d*", ("degC",)),
         (r"payload", ("kg",)),
     )
@@ -55,6 +55,11 @@ class Column:
     unit: str | None
     known: bool
     missing_unit: tuple[str, ...] = ()
+
+    @property
+    def moment(self) -> bool:
+        """True for moments written by ISO 8601, which are no numbers as they stand."""
+        return self.unit == "iso"
 
     @property
     def factor(self) -> float:

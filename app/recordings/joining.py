@@ -10,11 +10,10 @@ import numpy as np
 import polars as pl
 
 from app.errors import InputError, MissingColumnError
-from app.phrases import Phrase, Said, Texts
+from app.phrases import Said
 from app.recordings.table import Table
+from app.recordings.wording import phrase
 
-#: What is said of it, one file a language.
-WORDS = Texts(Path(__file__).parent / "words")
 #: Header keys that say how a recording was made; one that differs is dropped, and that is said.
 _MAY_DIFFER = ("noise_mm", "resolution_deg")
 #: Header keys that say what was moved; they must agree.
@@ -62,18 +61,14 @@ def joined(tables: Sequence[Table]) -> tuple[Table, tuple[Said, ...]]:
         bodies.append(body)
     counts = np.cumsum([0, *(len(t) for t in tables)])
     spans = tuple(
-        _phrase("span", file=Path(t.path).name, first=int(a) + 1, last=int(b))
+        phrase("joined.span", file=Path(t.path).name, first=int(a) + 1, last=int(b))
         for t, a, b in zip(tables, counts, counts[1:], strict=False)
     )
-    notes.insert(0, Said(_phrase("rows", spans=spans)))
+    notes.insert(0, Said(phrase("joined.rows", spans=spans)))
     whole = pl.concat(bodies)
     rows = np.arange(1, len(whole) + 1)
     path = Path(first.path).with_name(label)
     return Table(path, keys, tuple(whole.columns), lambda: (whole, rows)), tuple(notes)
-
-
-def _phrase(key: str, /, **fields: Any) -> Phrase:
-    return Phrase(WORDS, f"joined.{key}", fields)
 
 
 def _common_columns(tables: Sequence[Table]) -> tuple[list[str], list[Said]]:
@@ -104,7 +99,7 @@ def _common_columns(tables: Sequence[Table]) -> tuple[list[str], list[Said]]:
             )  # fmt: skip
         if column.known:
             names.append(quantity)
-    return names, [Said(_phrase("columns", columns=tuple(dropped)))] if dropped else []
+    return names, [Said(phrase("joined.columns", columns=tuple(dropped)))] if dropped else []
 
 
 def _common_keys(tables: Sequence[Table]) -> tuple[dict[str, Any], list[Said]]:
@@ -120,5 +115,5 @@ def _common_keys(tables: Sequence[Table]) -> tuple[dict[str, Any], list[Said]]:
     for key in _MAY_DIFFER:
         if any(t.keys.get(key) != first.keys.get(key) for t in tables):
             keys.pop(key, None)
-            notes.append(Said(_phrase("key", key=key)))
+            notes.append(Said(phrase("joined.key", key=key)))
     return keys, notes

@@ -8,15 +8,19 @@ its own, or by whoever asks for the file.
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from decimal import Decimal, InvalidOperation
 from pathlib import Path
 
 import numpy as np
 import polars as pl
 
 from app.errors import CellValueError, FileFormatError, MissingColumnError
+from app.recordings.options import ReadOptions
 from app.recordings.table import Table
+from app.units import MM_PER_INCH
 
 KIND = "tracker_points"
 UNITS = {
@@ -30,12 +34,21 @@ UNITS = {
     "meters": "m",
     "metre": "m",
     "metres": "m",
+    "in": "in",
+    "inch": "in",
+    "inches": "in",
 }
+#: What a list may be in that the columns of a table may not: it is brought to millimetres.
+_INCH = Decimal(str(MM_PER_INCH))
+#: Columns that name a point, or what was held to it, the same in every row.
+_REFLECTOR = frozenset({"target", "targetname"})
 _UNIT_LINE = re.compile(r"\b(?:units?|einheit(?:en)?)\b[^A-Za-z]*([A-Za-z]+)", re.IGNORECASE)
 _AXIS_UNIT = re.compile(r"\bX\s*[\[(]\s*([A-Za-z]+)\s*[\])]", re.IGNORECASE)
 _IN_NAME = re.compile(r"[\[(]\s*([A-Za-z]+)\s*[\])]|[\s_]([A-Za-z]+)$")
 _NUMBER = re.compile(r"[+-]?(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][+-]?\d+)?\Z")
-_OWN = re.compile(r"(?:^|,)\s*(?:q[1-8](?:_|,|$)|role\b|axis\b|t_s\b|[xyz]_m{1,2}\b)")
+_OWN = re.compile(r"(?:^|[,;\t])\s*(?:q[0-9]+(?:_|[,;\t]|$)|role\b|axis\b|t_s\b|[xyz]_m{1,2}\b)")
+_BRACKETED = re.compile(r"[\[(][^\])]{0,40}[\])]")
+_LONGEST_NAME = 200  # characters of a column's name that say something; a longer cell is no name
 _LONGEST = 50_000_000  # bytes: a point list is not longer
 
 
@@ -82,7 +95,7 @@ def unit_of(name: str) -> str | None:
 
 def bare(name: str) -> str:
     """A column's name without unit, case and ornaments: `X [mm]` -> `x`, `Point ID` -> `pointid`."""
-    without = re.sub(r"[\[(].*?[\])]", "", name)
+    without = _BRACKETED.sub("", name[:_LONGEST_NAME])
     parts = [p for p in re.split(r"[\s_.\-:#/\"]+", without.lower()) if p and p not in UNITS]
     return "".join(
         p for p in parts if p not in ("actual", "act", "measured", "meas", "ist", "coordinate", "coord")
@@ -156,6 +169,10 @@ def headed(path: Path, text: str, name_columns: frozenset[str], source: str) -> 
             )
         xyz = tuple(number(row[p], path=path, row=k, column=cells[p]) for p in places)
         rows.append((k, row[name_at], xyz))
+    if names[name_at] in _REFLECTOR and len(rows) > 1 and len(Counter(name for _, name, _ in rows)) == 1:
+        rows = [
+            (k, str(number), xyz) for number, (k, _, xyz) in enumerate(rows, 1)
+        ]  # one reflector, no names
     return point_table(path, rows, unit or unit_said(lines[: at + 1]), source, at + 1)
 
 
@@ -188,6 +205,8 @@ def point_table(
     """
     if not rows:
         raise FileFormatError("no data rows", file=path, row=header_row, expected="at least one point")
+    if unit == "in":
+        rows, unit = [(k, name, tuple(_in_mm(v) for v in xyz)) for k, name, xyz in rows], "mm"
     suffix = f"_{unit}" if unit else ""
     names = ("name", f"x{suffix}", f"y{suffix}", f"z{suffix}")
     frame = pl.DataFrame(
@@ -201,13 +220,31 @@ def point_table(
 
 
 def with_unit(table: Table, unit: str) -> Table:
-    """The same list, its coordinates read in `unit` (`mm` or `m`) where the file itself does not say."""
+    """The same list, its coordinates read in `unit` (`mm`, `m` or `in`) where the file itself does not say."""
     if table.kind != KIND or "x" not in table.names:
         return table
     frame, lines = table.load()
-    names = ("name", *(f"{axis}_{unit}" for axis in "xyz"))
+    suffix = "mm" if unit == "in" else unit
+    names = ("name", *(f"{axis}_{suffix}" for axis in "xyz"))
     renamed = frame.rename(dict(zip(table.names, names, strict=True)))
+    if unit == "in":
+        renamed = renamed.with_columns(
+            pl.Series(name, [_in_mm(v) for v in renamed[name].to_list()]) for name in names[1:]
+        )
     return replace(table, names=names, load=lambda: (renamed, lines))
+
+
+def _in_mm(inches: str) -> str:
+    """A number in inches as millimetres, exactly."""
+    try:
+        return str(Decimal(inches) * _INCH)
+    except InvalidOperation:
+        return inches
+
+
+def as_asked(table: Table, options: ReadOptions | None) -> Table:
+    """A list in the unit that was said for it."""
+    return table if options is None or options.unit is None else with_unit(table, options.unit)
 
 
 @dataclass(frozen=True)
@@ -232,10 +269,10 @@ class HeadedList:
         found = header_line(lines, self.names)
         return found is not None and not own_header(lines[found[0]])
 
-    def read(self, path: Path) -> Table:
+    def read(self, path: Path, options: ReadOptions | None = None) -> Table:
         """Reads all of it.
 
         Raises:
             FileFormatError, MissingColumnError, CellValueError: by row and column.
         """
-        return headed(path, read_text(path), self.names, self.title)
+        return as_asked(headed(path, read_text(path), self.names, self.title), options)

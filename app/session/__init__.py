@@ -10,6 +10,10 @@
     session.py    Session: the state that moves, with its journal behind it
     database.py   SQLite, or any other database by URL: an action is on the disk before it counts
     store.py      all sessions, a row an action
+    arms.py       arms that people brought by their own descriptions
+    owners.py     whose a session is, and what it is called
+    cell.py       the practice cell as the session says
+    motion/       the arm's drive: enabling, jog, watchdog, stop
     report.py     what a replay prints
 
 The browser, the command line, the replay and the tests all speak actions, so a whole wizard runs without a

@@ -53,10 +53,12 @@ class SetUserFrame(Action, frozen=True, tag="user_frame"):
 
 
 class Record(Action, frozen=True, tag="record"):
-    """Records the flange pose of `q` (None: where the arm stands) for a step that has none yet."""
+    """Records the flange pose of `q` (None: where the arm stands) for a step that has none yet; `back`: a stroke that
+    was made along the axis' negative sense, away from the spike."""
 
     step: str
     q: tuple[float, ...] | None = None
+    back: bool = False
 
 
 class ReRecord(Action, frozen=True, tag="re_record"):
@@ -64,6 +66,7 @@ class ReRecord(Action, frozen=True, tag="re_record"):
 
     step: str
     q: tuple[float, ...] | None = None
+    back: bool = False
 
 
 class Delete(Action, frozen=True, tag="delete"):
@@ -163,6 +166,8 @@ class Begin(Action, frozen=True, tag="begin"):
         tools: tools the controller has, the last one active: name, and T_flange_tool row by row [m].
         tracker: the two-robot procedure instead of the tool wizard; with fixed points or without.
         trainee: who does it; empty where nobody gave a name.
+        lesson: the exercise's own file, where it is none of the shipped ones: the journal then needs nothing else.
+        without: helps its class does not allow, beyond those the exercise itself leaves out.
     """
 
     exercise: str
@@ -174,6 +179,8 @@ class Begin(Action, frozen=True, tag="begin"):
     tools: tuple[tuple[str, tuple[float, ...]], ...] = ()
     tracker: Literal["", "nests", "bare"] = ""
     trainee: str = ""
+    lesson: str = ""
+    without: tuple[str, ...] = ()
 
 
 class OpenCell(Action, frozen=True, tag="open_cell"):
@@ -214,6 +221,28 @@ class TrackerUndo(Action, frozen=True, tag="tracker_undo"):
     """Takes the last measured point back."""
 
 
+class HangLoad(Action, frozen=True, tag="hang_load"):
+    """A load the controller does not know hangs on the flange, drawn by the seed; poses of another are put away."""
+
+    seed: int
+
+
+class WeighAt(Action, frozen=True, tag="weigh_at"):
+    """A pose of the weighing run: its number, from 0, and joint positions; `q` None takes the pose away."""
+
+    number: int
+    q: tuple[float, ...] | None = None
+
+
+class Weighed(Action, frozen=True, tag="weighed"):
+    """What the run found: a mass [kg] and its centre in the flange [m], with the half widths of their 95% intervals."""
+
+    mass: float
+    centre: tuple[float, float, float]
+    mass_half: float
+    centre_half: tuple[float, float, float]
+
+
 class Finish(Action, frozen=True, tag="finish"):
     """The exercise ends.
 
@@ -252,5 +281,8 @@ AnyAction = (
     | Tracked
     | TrackerNext
     | TrackerUndo
+    | HangLoad
+    | WeighAt
+    | Weighed
     | Finish
 )

@@ -14,14 +14,17 @@ from sqlalchemy import Column, Connection, Float, Integer, MetaData, String, Tab
 from sqlalchemy.engine import URL, make_url
 from sqlalchemy.exc import ArgumentError, IntegrityError, NoSuchModuleError, SQLAlchemyError
 
-from app.errors import InputError, StorageError, one_line
+from app.errors import ConflictError, InputError, StorageError, one_line
+from app.session import sqlite_file
+from app.session.migrations import upgrade
 
 FILE = "teachframe.sqlite"
 #: Drivers for URLs that name only the kind of database.
 _DRIVERS = {"postgresql": "postgresql+psycopg", "postgres": "postgresql+psycopg"}
-_BUSY = 30.0  # seconds another program may hold the file or the table before an action fails
+_BUSY = 5.0  # seconds another program may hold the file or the table before an action fails: a person waits for it
 _ANSWER = 10  # whole seconds a database server has to answer when it is first spoken to
 
+#: All tables, those of layers above too; `migrations` makes them.
 METADATA = MetaData()
 SESSIONS = Table(
     "sessions",
@@ -47,7 +50,8 @@ class Database:
         url: as SQLAlchemy writes it, `sqlite:////path/file` or `postgresql://user@host/name`.
 
     Raises:
-        InputError: not a URL, a driver that is not installed, or a database that does not answer.
+        InputError: not a URL, a driver that is not installed, a database that does not answer, or one that a later
+            version made.
     """
 
     def __init__(self, url: str | URL):
@@ -61,10 +65,12 @@ class Database:
         try:
             self._engine = create_engine(address, **options)
             if lite:
+                sqlite_file.prepare(Path(str(address.database)))
                 event.listen(self._engine, "connect", _durable)
             elif post:
                 event.listen(self._engine, "connect", _patient)
-            self.make_tables()
+            with self._engine.begin() as connection:
+                upgrade(connection, self.name)
         except ModuleNotFoundError as error:
             raise InputError(
                 f"{self.name} needs the package {error.name}",
@@ -76,9 +82,19 @@ class Database:
         except SQLAlchemyError as error:
             raise InputError(f"{self.name} cannot be used ({_said(error)})", column="--database") from None
 
-    def make_tables(self) -> None:
-        """Makes the tables that are not there yet: layers above this one have their own."""
-        METADATA.create_all(self._engine)
+    @property
+    def file(self) -> Path | None:
+        """The file, where the database is one."""
+        url = self._engine.url
+        return Path(str(url.database)) if url.get_backend_name() == "sqlite" else None
+
+    @contextmanager
+    def snapshot(self) -> Iterator[Connection]:
+        """A transaction that sees one moment, however long it reads; raises StorageError."""
+        with self.begin() as connection:
+            if connection.dialect.name == "postgresql":
+                connection.exec_driver_sql("SET TRANSACTION ISOLATION LEVEL REPEATABLE READ")
+            yield connection
 
     @contextmanager
     def begin(self) -> Iterator[Connection]:
@@ -91,7 +107,7 @@ class Database:
             with self._engine.begin() as connection:
                 yield connection
         except IntegrityError:
-            raise StorageError("another program writes to the same session") from None
+            raise ConflictError("another program writes to the same session") from None
         except SQLAlchemyError as error:
             raise StorageError(f"{self.name} did not keep this ({_said(error)})") from None
 
@@ -115,15 +131,8 @@ def _address(url: str | URL) -> URL:
             expected="sqlite:///FILE or postgresql://USER@HOST/NAME",
         ) from None
     address = address.set(drivername=_DRIVERS.get(address.drivername, address.drivername))
-    if address.get_backend_name() == "sqlite":
-        if address.database in (None, "", ":memory:"):
-            raise InputError(
-                "a database in memory keeps nothing", column="--database", expected="sqlite:///FILE"
-            )
-        try:
-            Path(address.database).parent.mkdir(parents=True, exist_ok=True)
-        except OSError as error:
-            raise InputError(f"cannot be written ({error.strerror})", file=address.database) from None
+    if address.get_backend_name() == "sqlite" and address.database in (None, "", ":memory:"):
+        raise InputError("a database in memory keeps nothing", column="--database", expected="sqlite:///FILE")
     return address
 
 

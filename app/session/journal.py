@@ -14,9 +14,16 @@ from typing import Protocol
 import msgspec
 
 from app.errors import FileFormatError
+from app.files import read_bytes
 from app.session.actions import AnyAction
+from app.typed import learnt
 
 FORMAT = "teachframe.session/1"
+#: A day of work is about a megabyte [bytes].
+LARGEST_FILE = 50_000_000
+MOST_ACTIONS = 200_000
+#: The end of the year 9999 [s since 1970]: calendars end there.
+LATEST = 253_402_300_799.0
 
 
 class Header(msgspec.Struct, frozen=True):
@@ -33,6 +40,10 @@ class Entry(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     n: int
     t: float
     action: AnyAction
+
+
+#: What a line may be.
+_DECODERS = {kind: learnt(kind) for kind in (Header, Entry, AnyAction)}
 
 
 @dataclass(frozen=True)
@@ -83,17 +94,17 @@ def read_journal(path: Path) -> Recorded:
     Raises:
         FileFormatError: no such file, not a journal, or a whole line that is not an action.
     """
-    try:
-        data = path.read_bytes()
-    except OSError as error:
-        raise FileFormatError(f"cannot be read ({error.strerror})", file=path) from None
+    data = read_bytes(path, LARGEST_FILE, "a session's journal")
     whole, _, rest = data.rpartition(b"\n")
+    if whole.count(b"\n") > MOST_ACTIONS:
+        raise FileFormatError("too many actions", file=path, expected=f"at most {MOST_ACTIONS}")
     lines = whole.split(b"\n") if whole else []
     if not lines:
         raise FileFormatError("not a session's journal", file=path, row=1, expected=FORMAT)
     header = decoded(lines[0], Header, path, 1)
     if header.format != FORMAT:
-        raise FileFormatError(f"its format is {header.format!r}", file=path, row=1, expected=FORMAT)
+        raise FileFormatError(f"its format is {header.format[:40]!r}", file=path, row=1, expected=FORMAT)
+    _check_time(header.created, path, 1, "created")
     entries = []
     for row, line in enumerate(lines[1:], 2):
         entry = decoded(line, Entry, path, row)
@@ -101,14 +112,23 @@ def read_journal(path: Path) -> Recorded:
             raise FileFormatError(
                 f"action number {entry.n}", file=path, row=row, column="n", expected=str(row - 1)
             )
+        _check_time(entry.t, path, row, "t")
         entries.append(entry)
     return Recorded(header, tuple(entries), bool(rest), path, 2)
+
+
+def _check_time(seconds: float, path: Path, row: int, column: str) -> None:
+    """Raises FileFormatError unless a calendar has this time."""
+    if not 0.0 <= seconds <= LATEST:
+        raise FileFormatError(
+            f"found {seconds!r}", file=path, row=row, column=column, expected="seconds since 1970"
+        )
 
 
 def decoded(text: bytes | str, kind, source: str | Path, row: int):
     """A header, an entry or an action from its JSON; raises FileFormatError that names the row."""
     try:
-        return msgspec.json.decode(text, type=kind)
-    except (msgspec.DecodeError, UnicodeDecodeError) as error:
+        return _DECODERS[kind].decode(text)
+    except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as error:
         expected = "a session's journal" if kind is Header else "one action as JSON"
         raise FileFormatError(f"not readable ({error})", file=source, row=row, expected=expected) from None

@@ -7,14 +7,17 @@ from pathlib import Path
 
 import numpy as np
 
-from app.calibration.captures import Capture
+from app.calibration.captures import ROLES, Capture, split_role
 from app.calibration.points import Points, Written, disagreement, read_points
 from app.calibration.tool import ORIENTATIONS, allowed_orientation
-from app.errors import InputError
+from app.errors import InputError, UnknownNameError
 from app.geometry import AngleConvention, Pose, convention
 from app.kinematics import RobotModel, robot_names
 from app.session.actions import LoadPoints
 from app.session.state import MODES, SessionState, as_tuple, mode_named, robot_named
+
+#: A quaternion's length may differ from 1 by this, as in a points file.
+_QUATERNION = 0.02
 
 
 def load_action(path: Path, *, method: str = "joint", mode: str | None = None) -> LoadPoints:
@@ -66,9 +69,14 @@ def _mode_of(points: Points) -> str:
 
 
 def loaded_points(action: LoadPoints) -> Points:
-    """The points of a loaded file, as the calibration would have read them."""
+    """The points of a loaded file, as the calibration would have read them.
+
+    Raises:
+        InputError: an unknown convention, robot or role; columns that are not those of the convention or the robot.
+    """
     form = convention(action.angles) if action.angles else None
     robot = robot_named(action.robot) if action.robot else None
+    _check_columns(action, form, robot)
     poses = _poses_by_angles(form) if form is not None else _poses_by_joints(robot)
     values = np.array(action.values, float)
     matrices = poses(values)
@@ -83,6 +91,29 @@ def loaded_points(action: LoadPoints) -> Points:
     written = Written(action.columns, values, np.array(action.steps), poses, form)
     references = {name: np.array(point) for name, point in action.references.items()}
     return Points(Path(action.source), action.title, captures, written, references, apart, robot, action.note)
+
+
+def _check_columns(action: LoadPoints, form: AngleConvention | None, robot: RobotModel | None) -> None:
+    """Raises InputError unless the columns are those the numbers are read by."""
+    bare = [name.rpartition("_")[0] or name for name in action.columns]
+    wanted = ["x", "y", "z", *form.columns] if form is not None else []
+    if robot is not None and form is None:
+        wanted = [f"q{j}" for j in range(1, robot.joint_count + 1)]
+    if bare != wanted and list(action.columns) != wanted:
+        raise InputError(
+            f"columns {', '.join(action.columns)[:80]}", column="columns", expected=", ".join(wanted)
+        )
+    unknown = {role for roles in action.roles for role in split_role(roles)} - set(ROLES)
+    if unknown:
+        raise UnknownNameError(min(unknown)[:40], available=ROLES, what="role")
+    if robot is not None and any(len(q) != robot.joint_count for q in action.joints):
+        raise InputError(
+            "joint positions of another arm", column="joints", expected=f"{robot.joint_count} each"
+        )
+    if form is not None and not form.angular:
+        lengths = np.linalg.norm(np.array(action.values, float)[:, 3:], axis=1)
+        if np.abs(lengths - 1.0).max() > _QUATERNION:
+            raise InputError("a quaternion's length is not 1", column="values", expected="length 1")
 
 
 def recorded_points(state: SessionState) -> Points:

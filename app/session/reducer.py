@@ -13,6 +13,7 @@ from app.session.actions import (
     ChooseRobot,
     CloseCell,
     Finish,
+    HangLoad,
     Move,
     OpenCell,
     Redo,
@@ -21,14 +22,18 @@ from app.session.actions import (
     TrackerNext,
     TrackerUndo,
     Undo,
+    WeighAt,
+    Weighed,
 )
 from app.session.refusals import refusal
+from app.session.sound import check_sound
 from app.session.state import SessionState
 
 STEPS = "app.session.steps"
 
 #: No change of the list: what Undo takes back stays the same.
-_ASIDE = Move | SetUserFrame | Tracked | TrackerNext | TrackerUndo | Finish | OpenCell | CloseCell
+_TRACKER = Tracked | TrackerNext | TrackerUndo | OpenCell | CloseCell
+_ASIDE = Move | SetUserFrame | Finish | HangLoad | WeighAt | Weighed | _TRACKER
 
 Reducer = Callable[[SessionState, AnyAction], SessionState]
 
@@ -47,6 +52,7 @@ def reduce(state: SessionState, action: AnyAction) -> SessionState:
     Raises:
         ActionRefusedError: the state does not allow the action; says what to do instead.
     """
+    check_sound(action)
     if isinstance(action, Undo):
         return _undo(state)
     if isinstance(action, Redo):
@@ -73,5 +79,5 @@ def _redo(state: SessionState) -> SessionState:
 
 def _standing(state: SessionState) -> dict[str, Any]:
     """What Undo and Redo leave alone."""
-    kept = {name: getattr(state, name) for name in ("q", "user_frame", "running", "two_robots")}
+    kept = {name: getattr(state, name) for name in ("q", "user_frame", "running", "two_robots", "load")}
     return {**kept, "count": state.count + 1}

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
-import msgspec
+from datetime import datetime
 
-from app.calibration.solving import to_json
+import msgspec
+import numpy as np
+
+from app.calibration.as_json import solved_json
 from app.calibration.text import page
 from app.geometry import CONVENTIONS
 from app.session.state import SessionState, TwoRobots, mode_named
@@ -13,9 +16,31 @@ from app.simulation.tracker_procedure import senses
 from app.units import deg, mm
 
 
+def moment(seconds: float, form: str = "%Y-%m-%d %H:%M") -> str:
+    """A time [s since 1970] as a person reads it; `?` for one that no calendar has."""
+    try:
+        return datetime.fromtimestamp(seconds).strftime(form)
+    except (OverflowError, ValueError, OSError):
+        return "?"
+
+
 def report_text(state: SessionState) -> str:
     """The result as a page; where there is none, what is still missing. With the user frame, where it was set."""
-    return "\n".join([_work(state), *_user_frame(state)])
+    return "\n".join([_work(state), *_load(state), *_user_frame(state)])
+
+
+def _load(state: SessionState) -> list[str]:
+    if state.load is None:
+        return []
+    found = state.load.found
+    if found is None:
+        return [f"load data: {len(state.load.poses)} poses of the run recorded, not weighed"]
+    x, y, z = mm(np.array(found.centre))
+    halves = ", ".join(f"{v:.1f}" for v in mm(np.array(found.centre_half)))
+    return [
+        f"load data: {found.mass:.3f} ± {found.mass_half:.3f} kg, centre {x:.1f}, {y:.1f}, {z:.1f} mm "
+        f"± {halves} mm in the flange (95%)"
+    ]
 
 
 def _user_frame(state: SessionState) -> list[str]:
@@ -63,4 +88,4 @@ def two_robots_text(work: TwoRobots) -> str:
 
 def report_json(state: SessionState) -> str | None:
     """The object teachframe.tool/1 on one line; None without a result."""
-    return None if state.result is None else msgspec.json.encode(to_json(state.result.result)).decode()
+    return None if state.result is None else msgspec.json.encode(solved_json(state.result)).decode()

@@ -6,10 +6,13 @@ import threading
 import time
 
 from app.errors import ActionRefusedError, FileFormatError
-from app.session.actions import AnyAction, ChooseRobot
+from app.session.actions import AnyAction, Begin, ChooseRobot, Finish
 from app.session.journal import Entry, Journal, Recorded
 from app.session.reducer import reduce
 from app.session.state import SessionState, first_state
+
+#: What arithmetic on numbers that nobody meant ends in.
+_NOT_MEANT = (ValueError, TypeError, KeyError, IndexError, ArithmeticError, RecursionError)
 
 
 class Session:
@@ -25,6 +28,7 @@ class Session:
         self._lock = threading.RLock()
         self.closed = False
         self._entries: list[Entry] = [] if journal is None else list(journal.recorded.entries)
+        self._ended = next(filter(None, (_exam(entry.action) for entry in reversed(self._entries))), None)
         self.state = first_state() if journal is None else replay(journal.recorded)
         if (
             not self.state.count
@@ -42,6 +46,16 @@ class Session:
         with self._lock:
             return tuple(self._entries)
 
+    def since(self, number: int) -> tuple[Entry, ...]:
+        """Actions after the first so many, with their times."""
+        with self._lock:
+            return tuple(self._entries[number:])
+
+    @property
+    def ended(self) -> Begin | Finish | None:
+        """What began or ended an exercise last: a Begin or a Finish; None where there was none."""
+        return self._ended
+
     def do(self, action: AnyAction) -> SessionState:
         """Does one action: first tried, then kept, then taken over.
 
@@ -56,6 +70,7 @@ class Session:
                 Entry(number, time.time(), action) if self._journal is None else self._journal.append(action)
             )
             self._entries.append(kept)
+            self._ended = _exam(action) or self._ended
             self.state = after
             return after
 
@@ -64,6 +79,10 @@ class Session:
         self.closed = True
         if self._journal is not None:
             self._journal.close()
+
+
+def _exam(action: AnyAction) -> Begin | Finish | None:
+    return action if isinstance(action, Begin | Finish) else None
 
 
 def replay(recorded: Recorded) -> SessionState:
@@ -79,5 +98,11 @@ def replay(recorded: Recorded) -> SessionState:
         except ActionRefusedError as error:
             raise FileFormatError(
                 f"this action is not possible here ({error})", file=recorded.source, row=row
+            ) from None
+        except (
+            _NOT_MEANT
+        ) as error:  # written by a hand or another program: it has the shape of an action only
+            raise FileFormatError(
+                f"this action cannot be done ({type(error).__name__})", file=recorded.source, row=row
             ) from None
     return state

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from types import MappingProxyType
@@ -15,9 +15,10 @@ from app.calibration.base.wizard import BaseWizard
 from app.calibration.captures import Capture, Mode, Step
 from app.calibration.solving import Solved
 from app.diagnosis.model import SavedModel
+from app.errors import UnknownNameError
 from app.geometry import Pose
 from app.kinematics import RobotModel, load_robot, robot_names
-from app.session.actions import Begin, Enter, LoadPoints, OpenCell
+from app.session.actions import Begin, Enter, LoadPoints, OpenCell, Weighed
 
 MODES = "app.calibration.modes"
 FIRST_ROBOT = "jby50"
@@ -63,6 +64,24 @@ class TwoRobots:
 
 
 @dataclass(frozen=True, eq=False)
+class Weighing:
+    """The lesson of load data: what hangs there and how far it was weighed.
+
+    Args:
+        seed: draws the load.
+        poses: joint positions of the run's poses by their number, from 0.
+        found: what the run through all of them gave; None before it, and as soon as a pose changes.
+    """
+
+    seed: int
+    poses: Mapping[int, tuple[float, ...]] = field(default_factory=dict)
+    found: Weighed | None = None
+
+    def __post_init__(self):
+        object.__setattr__(self, "poses", MappingProxyType(dict(self.poses)))
+
+
+@dataclass(frozen=True, eq=False)
 class SessionState:
     """One moment of a session.
 
@@ -80,6 +99,7 @@ class SessionState:
         entered: the tool frame typed in for the mode `direct`.
         running: the exercise that is being done.
         two_robots: the cell of two robots that is open.
+        load: the load that is being weighed.
         user_frame: T_base_user that was typed or taught; None where it is the table's.
         cell_model: what is wrong with the arm in the practice cell; None where it is as described.
         count: actions so far.
@@ -100,6 +120,7 @@ class SessionState:
     entered: Enter | None = None
     running: Running | None = None
     two_robots: TwoRobots | None = None
+    load: Weighing | None = None
     user_frame: Pose | None = None
     cell_model: SavedModel | None = None
     count: int = 0
@@ -151,10 +172,38 @@ def accepted(state: SessionState) -> bool:
     )
 
 
-@lru_cache(maxsize=16)
+#: Arms besides the shipped ones that sessions of this process may use: name -> what reads it.
+_GRANTED: dict[str, Callable[[str], RobotModel]] = {}
+
+
+def grant_robot(name: str, read: Callable[[str], RobotModel] = load_robot) -> None:
+    """Sessions of this process may use this arm: a person named or brought it, no file did.
+
+    Args:
+        name: what sessions call it.
+        read: gives the arm of that name.
+    """
+    _GRANTED[name] = read
+
+
+def known_robot(name: str) -> bool:
+    """True for a shipped arm and one that was granted."""
+    return name in _GRANTED or name in robot_names()
+
+
+@lru_cache(maxsize=64)
 def robot_named(name: str) -> RobotModel:
-    """A shipped arm, read once; raises UnknownNameError."""
-    return load_robot(name)
+    """A shipped arm, or one that was granted, read once. A session is data: what it names is not opened for that.
+
+    Raises:
+        UnknownNameError: neither of them.
+    """
+    shipped = robot_names()
+    if name in shipped:
+        return load_robot(name)
+    if name not in _GRANTED:
+        raise UnknownNameError(name[:80], available=shipped, what="robot")
+    return _GRANTED[name](name)
 
 
 def mode_named(key: str) -> Mode:

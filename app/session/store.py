@@ -14,9 +14,12 @@ from sqlalchemy import delete, func, insert, select
 
 from app.errors import FileFormatError, InputError, StorageError, TeachframeError, UnknownNameError
 from app.session.actions import AnyAction
+from app.session.arms import Arms
 from app.session.database import ACTIONS, FILE, SESSIONS, Database, sqlite_url
-from app.session.journal import Entry, Header, Recorded, decoded, encode_journal, read_journal
+from app.session.journal import MOST_ACTIONS, Entry, Header, Recorded, decoded, encode_journal, read_journal
+from app.session.leases import LEASES, Leases, check_held
 from app.session.session import Session, replay
+from app.session.sqlite_file import close_folder
 from app.session.state import SessionState
 
 JOURNAL = "journal.jsonl"
@@ -61,6 +64,8 @@ class Store:
 
     def __init__(self, folder: Path | None = None, database: str | None = None):
         self.folder = folder or default_folder()
+        if (self.folder / FILE).is_file():
+            close_folder(self.folder)
         self.database = Database(database or sqlite_url(self.folder / FILE))
         for path in sorted((self.folder / "sessions").glob(f"*/{JOURNAL}")):
             if _NAME.match(path.parent.name) and not self.has(path.parent.name):
@@ -69,21 +74,27 @@ class Store:
                 except TeachframeError:  # damaged: it stays where it is
                     continue
 
-    def create(self, *, robot: str | None = None) -> Session:
-        """A new, empty session."""
+    def create(self, *, robot: str | None = None, leases: Leases | None = None) -> Session:
+        """A new, empty session; held where there are leases."""
         header = Header(secrets.token_hex(16), time.time())
         with self.database.begin() as connection:
             connection.execute(insert(SESSIONS), {"name": header.session, "created": header.created})
-        return Session(_Journal(self.database, Recorded(header, ())), robot=robot)
+            if leases is not None:
+                leases.begin(connection, header.session)
+        return Session(_Journal(self.database, Recorded(header, ()), leases), robot=robot)
 
-    def open(self, name: str) -> Session:
+    def open(self, name: str, *, leases: Leases | None = None) -> Session:
         """A session that was there before, as it was left.
+
+        Args:
+            name: its name.
+            leases: hold it: what it writes is kept only as long as they do.
 
         Raises:
             UnknownNameError: there is none of this name.
             FileFormatError: a row of it is damaged.
         """
-        return Session(_Journal(self.database, self.recorded(name)))
+        return Session(_Journal(self.database, self.recorded(name), leases))
 
     def has(self, name: str) -> bool:
         """True where this session is kept here; any text may be asked about."""
@@ -148,6 +159,13 @@ class Store:
                 connection.execute(insert(ACTIONS), rows)
         return name
 
+    def delete(self, name: str) -> None:
+        """Takes a session away for good; one that is not there is no error."""
+        with self.database.begin() as connection:
+            connection.execute(delete(ACTIONS).where(ACTIONS.c.session == name))
+            connection.execute(delete(LEASES).where(LEASES.c.session == name))
+            connection.execute(delete(SESSIONS).where(SESSIONS.c.name == name))
+
     def names(self) -> list[str]:
         """Names of all sessions, the newest first."""
         with self.database.begin() as connection:
@@ -180,8 +198,8 @@ class Store:
 class _Journal:
     """One session's rows, open for writing."""
 
-    def __init__(self, database: Database, recorded: Recorded):
-        self._database, self.recorded = database, recorded
+    def __init__(self, database: Database, recorded: Recorded, leases: Leases | None = None):
+        self._database, self.recorded, self._leases = database, recorded, leases
         self._count = len(recorded.entries)
         self._doubtful: dict[str, object] | None = None
         self._closed = False
@@ -194,6 +212,8 @@ class _Journal:
         """
         if self._closed:
             raise ValueError("this session is closed")
+        if self._count >= MOST_ACTIONS:
+            raise StorageError(f"this session is full ({MOST_ACTIONS} actions); begin another one")
         entry = Entry(self._count + 1, round(time.time(), 3), action)
         row, doubtful = _row(self.recorded.header.session, entry), self._doubtful
         try:
@@ -202,6 +222,8 @@ class _Journal:
                     same = [column == doubtful[column.name] for column in ACTIONS.columns]
                     connection.execute(delete(ACTIONS).where(*same))
                 connection.execute(insert(ACTIONS), row)
+                if self._leases is not None:
+                    check_held(connection, self.recorded.header.session, self._leases.me)
         except StorageError:
             self._doubtful = row
             raise
@@ -235,4 +257,6 @@ def find_recorded(text: str, folder: Path | None = None, database: str | None = 
         raise UnknownNameError(text, available=["(no sessions)"], what="session")
     if database is None and not root.is_dir():
         raise InputError("not a folder", file=root, expected="the data folder of the pendant")
-    return Store(folder, database).find(text)
+    store = Store(folder, database)
+    Arms(store.database).grant()
+    return store.find(text)

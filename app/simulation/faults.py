@@ -10,15 +10,15 @@ from typing import Any
 import numpy as np
 
 from app import catalog
+from app.diagnosis.effects.kinematic._base import KinematicEffect, Place, Quantity
 from app.diagnosis.model import SavedModel
-from app.diagnosis.static.cell import nominal_cell, pose
-from app.diagnosis.static.effect import Place, Quantity, StaticEffect
-from app.diagnosis.static.situation import Situation, situation_for
+from app.diagnosis.models.kinematic.cell import nominal_cell, pose
+from app.diagnosis.models.kinematic.situation import Situation, situation_for
 from app.errors import UnknownNameError
 from app.geometry import Pose
 from app.kinematics import RobotModel
 
-EFFECTS = "app.diagnosis.effects.static"
+EFFECTS = "app.diagnosis.effects.kinematic"
 #: Effects that no torque drives.
 _WEIGHTLESS = frozenset({"joint_zero", "joint_slip", "link_length", "link_twist", "tool_slip", "base_shift"})
 CONVENTION = "wrong_convention"
@@ -45,7 +45,7 @@ class Fault:
     fixed: Mapping[str, float] = field(default_factory=dict)
 
     @cached_property
-    def law(self) -> StaticEffect:
+    def law(self) -> KinematicEffect:
         return catalog.member(EFFECTS, "EFFECT", self.effect, what="effect")
 
     def checked(self, robot: RobotModel) -> Fault:

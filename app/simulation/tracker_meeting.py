@@ -8,6 +8,7 @@ import numpy as np
 
 from app.calibration.base.relation import Relation
 from app.calibration.base.wording import refused
+from app.estimation import reach
 from app.simulation.tracker_cell import CellArm, TrackerCell
 
 POINTER = 0.22  # share of the reach: length of the pointer on each flange
@@ -24,7 +25,7 @@ class Meeting:
         postures: joints of both arms [rad].
         tips: (2, 3) [m] where the two tips really are, in the world.
         miss: [m] between them.
-        predicted: [m] one-sigma length of the miss by the covariance.
+        predicted: [m] longest half axis of the region that holds the miss in 95 of 100 cases.
     """
 
     postures: tuple[np.ndarray, np.ndarray]
@@ -65,17 +66,17 @@ def meet(cell: TrackerCell, relation: Relation) -> Meeting:
             if found[0] is None or found[1] is None:
                 continue
             tips = np.array([a.flange(q).apply(pointer(a)) for a, q in ((one, found[0]), (two, found[1]))])
-            j = _covariance(relation, told_1)
-            return Meeting((found[0], found[1]), tips, float(np.linalg.norm(tips[0] - tips[1])), j)
+            off = float(np.linalg.norm(tips[0] - tips[1]))
+            return Meeting((found[0], found[1]), tips, off, _region(relation, told_1))
     raise refused("no_meeting")
 
 
-def _covariance(relation: Relation, p_base1: np.ndarray) -> float:
+def _region(relation: Relation, p_base1: np.ndarray) -> float:
     from app.calibration.base.frame import point_jacobian
 
     assert relation.T_base1_base2 is not None
     at = point_jacobian(relation.T_base1_base2.inverse().apply(p_base1))
-    return float(np.sqrt(np.trace(at @ relation.covariance @ at.T)))
+    return reach(0) * float(np.sqrt(np.linalg.eigvalsh(at @ relation.covariance @ at.T)[-1]))
 
 
 def _reach(arm: CellArm, p_base: np.ndarray) -> np.ndarray | None:

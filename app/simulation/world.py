@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -16,6 +17,8 @@ from app.units import from_mm
 TOUCH_SIGMA = from_mm(0.15)
 #: Closer than this the tip counts as touching.
 CONTACT_DISTANCE = from_mm(1.0)
+#: Thickness of the ground plate on the table: flat, for tools that are taught on a plane.
+PLATE = from_mm(6.0)
 #: Where the spike stands where the description does not say: shares of the reach, ahead and up, best first.
 _SPIKES = ((0.55, 0.20), (0.50, 0.28), (0.62, 0.28), (0.45, 0.38), (0.62, 0.12), (0.55, 0.45))
 #: From the orientation at home [rad]: how the tip must be able to stand on it.
@@ -109,6 +112,17 @@ class World:
         """True where the tip is in contact with the spike; q (n,)."""
         return self.distance(q) <= self.contact_distance
 
+    @property
+    def plate_height(self) -> float:
+        """Upper face of the ground plate on the table, in base z [m]."""
+        return self.table_height + PLATE
+
+    def off(self, q: np.ndarray, roles: Sequence[str]) -> float:
+        """How far the tip is from what it has to touch for a point of these roles [m]; 0 for none; q (n,)."""
+        if "plane" in roles:
+            return abs(float(self.tip(q).position[2]) - self.plate_height)
+        return self.distance(q) if "touch" in roles else 0.0
+
     def touch(self, q: np.ndarray, rng: np.random.Generator) -> IkResult:
         """Brings the tip to the spike in the orientation it has, as well as a hand can.
 
@@ -118,6 +132,17 @@ class World:
         """
         aim = self.p_base_spike + rng.normal(0.0, self.touch_sigma, 3)
         return self._go(q, Pose.of(self.tip(q).rotation, aim))
+
+    def bring(self, q: np.ndarray, aim: Pose, rng: np.random.Generator | None = None) -> IkResult:
+        """Brings the tip to a place and an orientation, as well as a hand can.
+
+        Args:
+            q: (n,) where the arm is.
+            aim: T_base_tip.
+            rng: draws the hand's error; None makes none.
+        """
+        error = np.zeros(3) if rng is None else rng.normal(0.0, self.touch_sigma, 3)
+        return self._go(q, Pose.of(aim.rotation, aim.position + error))
 
     def stroke(self, q: np.ndarray, axis: int, length: float, rng: np.random.Generator) -> IkResult:
         """Moves the tip along one of the true tool's axes without turning it, as well as a hand can.

@@ -7,6 +7,8 @@
     attempt.py    the actions of one attempt, taken out of a session's journal
     travel.py     way, closest approach, contacts
     score.py      (exercise, journal with times) -> ScoreCard: pure, so a score is computed again at any time
+    levels.py     the same task with fewer helps each time, and what that is worth
+    weighing.py   a payload found by moving the arm: its log, and the search in it
     advice.py     what to do better next
     records.py    all scores, in the sessions' database
 

@@ -18,6 +18,7 @@ from app.units import deg, mm
 _MOST = 4  # pieces of advice at once: more are not read
 _WELL = 0.999  # share of a part from which on there is nothing to say
 _TILT = 40.0  # degrees two touches should at least be apart
+_SAME = 8.0  # degrees: closer than this an orientation of before was touched again
 _STROKE = 100.0  # mm a stroke should at least be long
 _DECEIVED = 2.0  # times: the true error beside what the residual makes one believe
 
@@ -66,6 +67,8 @@ def advice_for(
         found.append(
             Advice("travel", {"m": f"{figures['travel_m']:.1f}", "aim": f"{exercise.aims.travel_m:g}"})
         )
+    if not found and lacking == {"alone": lacking.get("alone")}:
+        return (Advice("alone"),)
     return tuple(found[:_MOST]) or (Advice("well"),)
 
 
@@ -90,27 +93,34 @@ def _accuracy(exercise: Exercise, figures: dict[str, float], state: SessionState
     residual = figures.get("residual_mm")
     if residual is not None and figures["tool_mm"] > _DECEIVED * residual:
         out.append(Advice("deceived", {"residual": f"{residual:.2f}", "error": f"{figures['tool_mm']:.2f}"}))
-    turned = _least_turn(state)
+    turned = _least_turn(state, repeats=exercise.question is not None)
     if turned is not None and round(turned) < _TILT:
         out.append(Advice("tilt", {"deg": f"{turned:.0f}", "aim": f"{_TILT:.0f}"}))
-    elif residual is not None:
-        out.append(Advice("more_touches"))
+    elif residual is not None and not out:
+        out.append(Advice("careful"))
     return out
 
 
-def _least_turn(state: SessionState) -> float | None:
-    """Degrees between the two touches that are most alike; None with fewer than two."""
+def _least_turn(state: SessionState, *, repeats: bool) -> float | None:
+    """Degrees between the two touches that are most alike; None with fewer than two.
+
+    Args:
+        repeats: the task asks to touch an orientation of before again: pairs that are the same on purpose do not count.
+    """
     touches = [c for c in state.ordered if "touch" in c.roles]
     if len(touches) < 2:
         return None
     rotations = np.array([c.T_base_flange.rotation for c in touches])
     angles = deg(angle_between(rotations[:, None], rotations[None, :]))
-    return float(angles[np.triu_indices(len(touches), 1)].min())
+    pairs = angles[np.triu_indices(len(touches), 1)]
+    if repeats:
+        pairs = pairs[pairs > _SAME]
+    return float(pairs.min()) if len(pairs) else None
 
 
 def _axes(state: SessionState) -> Advice:
     origins = of_role(state.ordered, "origin")
-    strokes = [c for c in state.ordered if c.role in ("x", "y", "z")]
+    strokes = [c for c in state.ordered if c.role.removeprefix("-") in ("x", "y", "z")]
     if origins and strokes:
         start = origins[0].T_base_flange.position
         shortest = mm(min(float(np.linalg.norm(c.T_base_flange.position - start)) for c in strokes))

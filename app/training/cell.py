@@ -8,17 +8,20 @@ from app.geometry import Pose
 from app.session.actions import Begin
 from app.session.state import Running, SessionState
 from app.simulation.world import World
-from app.training.exercise import Exercise
+from app.training.exercise import Exercise, begun_exercise, lesson_of
 from app.training.truth import Truth, truth_of
 
 
-def begin(exercise: Exercise, seed: int, at: float, trainee: str = "") -> Begin:
+def begin(
+    exercise: Exercise, seed: int, at: float, trainee: str = "", without: tuple[str, ...] = ()
+) -> Begin:
     """The action that begins an attempt.
 
     Args:
         seed: draws the truth.
         at: when [s since 1970].
         trainee: who does it.
+        without: helps its class does not allow.
     """
     tools: tuple[tuple[str, tuple[float, ...]], ...] = ()
     if exercise.goal != "relation":
@@ -27,7 +30,17 @@ def begin(exercise: Exercise, seed: int, at: float, trainee: str = "") -> Begin:
             tools = (("tool 1", tuple(float(v) for v in active.matrix.ravel())),)
     tracker = "" if exercise.goal != "relation" else "nests" if exercise.nests else "bare"
     return Begin(
-        exercise.key, seed, at, exercise.robot, exercise.mode, exercise.touches, tools, tracker, trainee
+        exercise.key,
+        seed,
+        at,
+        exercise.robot,
+        exercise.mode,
+        exercise.touches,
+        tools,
+        tracker,
+        trainee,
+        lesson_of(exercise),
+        without,
     )
 
 
@@ -35,7 +48,8 @@ def world_of(state: SessionState) -> World | None:
     """The cell of the exercise that is being done, as it is now; None where none is, or it is the two-robot cell."""
     if state.running is None or state.running.wizard is not None:
         return None
-    return world_now(truth_of(state.running.begun.exercise, state.running.begun.seed), state)
+    begun = state.running.begun
+    return world_now(truth_of(begun_exercise(begun).key, begun.seed), state)
 
 
 def world_now(truth: Truth, state: SessionState) -> World:

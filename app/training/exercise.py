@@ -2,31 +2,33 @@
 
 from __future__ import annotations
 
+import math
 from functools import cache
 from pathlib import Path
 from typing import Any, Literal
 
 import msgspec
+import tomli_w
 
 from app import resources
 from app.errors import FileFormatError, TeachframeError, UnknownNameError
+from app.session.actions import Begin
 from app.session.state import mode_named, robot_named
+from app.session.steps.exercise import made_key
+from app.typed import learnt
 
 FOLDER = resources.STATIC / "exercises"
 #: What can be wrong with a cell, as a trainee may answer.
 ANSWERS = (
-    "nothing",
-    "bent_tip",
-    "spike_moved",
-    "joint_zero",
-    "soft_gearbox",
-    "wrong_tool",
-    "tracker_moved",
-)
+    "nothing", "bent_tip", "spike_moved", "joint_zero", "soft_gearbox", "wrong_tool", "tracker_moved",
+)  # fmt: skip
 LANGUAGES = ("en", "zh")
+#: Exercises that were made here and have been met by this process, by key, and their files' texts; neither changes.
+_made: dict[str, Exercise] = {}
+_texts: dict[str, str] = {}
 
 
-class _Part(msgspec.Struct, frozen=True):
+class _Part(msgspec.Struct, frozen=True, omit_defaults=True):
     """The root of an exercise's parts."""
 
 
@@ -40,13 +42,14 @@ class Words(_Part, frozen=True, kw_only=True, forbid_unknown_fields=True):
 
 class Allowed(_Part, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """Helps: a number for the distance, close views, the proposal of the next touch, the drag handle, a hand that
-    brings the tip to the spike."""
+    brings the tip to the spike (or turns the axes for the tracker), the light at contact."""
 
     distance: bool = True
     closeup: bool = True
     next_touch: bool = True
     handle: bool = True
     touch: bool = True
+    light: bool = True
 
 
 class FaultPart(_Part, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -155,6 +158,9 @@ class Exercise(_Part, frozen=True, kw_only=True, forbid_unknown_fields=True):
         return self.words.get(language, self.words["en"])
 
 
+learnt(Exercise)
+
+
 def read_exercise(path: Path) -> Exercise:
     """One exercise from its file.
 
@@ -162,19 +168,42 @@ def read_exercise(path: Path) -> Exercise:
         FileFormatError: not such a file, or something in it that cannot be; says where.
     """
     try:
-        table = msgspec.toml.decode(path.read_bytes())
-        exercise = msgspec.convert({"key": path.stem, **table}, Exercise)
+        text = path.read_text(encoding="utf-8")
     except OSError as error:
         raise FileFormatError(f"cannot be read ({error.strerror})", file=path) from None
+    except UnicodeDecodeError:
+        raise FileFormatError("not a text", file=path, expected="UTF-8") from None
+    return parse_exercise(text, path.stem, path)
+
+
+def parse_exercise(text: str, key: str, file: str | Path) -> Exercise:
+    """One exercise from the text of its file.
+
+    Args:
+        key: what it is called.
+        file: named in errors.
+
+    Raises:
+        FileFormatError: not such a file, or something in it that cannot be; says where.
+    """
+    try:
+        exercise = msgspec.convert({"key": key, **msgspec.toml.decode(text)}, Exercise)
     except (msgspec.DecodeError, ValueError) as error:
         raise FileFormatError(
-            f"not an exercise ({error})", file=path, expected="see app/training/exercise.py"
+            f"not an exercise ({error})", file=file, expected="see app/training/exercise.py"
         ) from None
     try:
         _check(exercise)
     except TeachframeError as error:
-        raise FileFormatError(str(error), file=path) from None
+        raise FileFormatError(str(error), file=file) from None
     return exercise
+
+
+def exercise_text(exercise: Exercise) -> str:
+    """The text of its file: what `parse_exercise` reads, without what is as usual and without the key."""
+    table = msgspec.to_builtins(exercise)
+    del table["key"]
+    return tomli_w.dumps(table)
 
 
 def _check(exercise: Exercise) -> None:
@@ -187,6 +216,20 @@ def _check(exercise: Exercise) -> None:
     for language in LANGUAGES:
         if language not in exercise.words:
             raise FileFormatError("no words", column=f"words.{language}", expected="title, task and learn")
+    aims = msgspec.structs.asdict(exercise.aims)
+    for name in (
+        "minutes",
+        {"touch": "touch_mm", "tool": "tool_mm", "relation": "relation_mm"}[exercise.goal],
+    ):
+        if not aims[name] > 0.0:  # a part of the score is a share of it
+            raise FileFormatError(f"{aims[name]:g}", column=f"aims.{name}", expected="a number above 0")
+    for name, value in {**aims, **_lengths(exercise.hidden)}.items():
+        if not 0.0 <= value < math.inf:
+            raise FileFormatError(f"{value:g}", column=name, expected="a number from 0 on")
+    if not 1 <= exercise.hidden.spike_from[0] <= exercise.hidden.spike_from[1]:
+        raise FileFormatError(
+            "no touch it may happen before", column="hidden.spike_from", expected="first <= last"
+        )
     if (exercise.goal == "relation") != (len(exercise.hidden.robots) == 2):
         raise FileFormatError(
             "robots", column="hidden.robots", expected="two where the goal is relation, else none"
@@ -203,6 +246,15 @@ def _check(exercise: Exercise) -> None:
         raise FileFormatError("one_of draws the answer", column="question.answer", expected="no answer")
 
 
+def _lengths(hidden: Hidden) -> dict[str, float]:
+    """Its plain numbers: sizes of what is hidden."""
+    return {
+        f"hidden.{name}": value
+        for name, value in msgspec.structs.asdict(hidden).items()
+        if isinstance(value, float)
+    }
+
+
 @cache
 def exercises() -> dict[str, Exercise]:
     """All exercises by key, in their order."""
@@ -216,6 +268,30 @@ def exercise(key: str) -> Exercise:
     Raises:
         UnknownNameError: there is none of this key.
     """
-    if key not in exercises():
-        raise UnknownNameError(key, available=exercises(), what="exercise")
-    return exercises()[key]
+    found = exercises().get(key) or _made.get(key)
+    if found is None:
+        raise UnknownNameError(key[:80], available=exercises(), what="exercise")
+    return found
+
+
+def made_exercise(lesson: str) -> Exercise:
+    """The exercise whose file has this text; from now on `exercise` knows it by its key, which follows from the text.
+
+    Raises:
+        FileFormatError: something in it cannot be; says where.
+    """
+    key = made_key(lesson)
+    if key not in _made:
+        _made[key] = parse_exercise(lesson, key, f"{key}.toml")
+        _texts[key] = lesson
+    return _made[key]
+
+
+def lesson_of(exercise: Exercise) -> str:
+    """The text of the file of an exercise that was made here; empty for the shipped ones, which every program has."""
+    return _texts.get(exercise.key, "")
+
+
+def begun_exercise(begun: Begin) -> Exercise:
+    """The exercise an attempt was begun with; raises UnknownNameError or FileFormatError."""
+    return made_exercise(begun.lesson) if begun.lesson else exercise(begun.exercise)

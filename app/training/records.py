@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
+
 import msgspec
 from sqlalchemy import Column, Float, Integer, String, Table, Text, insert, select
 
 from app.errors import FileFormatError
 from app.session.database import METADATA, Database
 from app.training.score import ScoreCard
+from app.typed import learnt
 
+_CARD = learnt(ScoreCard)
 SCORES = Table(
     "scores",
     METADATA,
@@ -31,7 +35,6 @@ class Records:
 
     def __init__(self, database: Database):
         self._database = database
-        database.make_tables()
 
     def add(self, trainee: str, session: str, card: ScoreCard) -> None:
         """Keeps one score; raises StorageError."""
@@ -65,6 +68,26 @@ class Records:
             rows = connection.execute(wanted).all()
         return [_card(number, text) for number, text in rows]
 
+    def histories(self, trainees: Collection[str], exercise: str | None = None) -> dict[str, list[ScoreCard]]:
+        """What many trainees reached, the oldest first each; who has no score is not there.
+
+        Raises:
+            FileFormatError: a row cannot be read.
+        """
+        wanted = (
+            select(SCORES.c.trainee, SCORES.c.id, SCORES.c.card)
+            .where(SCORES.c.trainee.in_(list(trainees)))
+            .order_by(SCORES.c.id)
+        )
+        if exercise is not None:
+            wanted = wanted.where(SCORES.c.exercise == exercise)
+        with self._database.begin() as connection:
+            rows = connection.execute(wanted).all()
+        found: dict[str, list[ScoreCard]] = {}
+        for trainee, number, text in rows:
+            found.setdefault(trainee, []).append(_card(number, text))
+        return found
+
     def trainee_of(self, session: str) -> str:
         """Who did the last exercise in a session; empty where nobody did."""
         newest = (
@@ -84,6 +107,6 @@ class Records:
 
 def _card(number: int, text: str) -> ScoreCard:
     try:
-        return msgspec.json.decode(text, type=ScoreCard)
+        return _CARD.decode(text)
     except msgspec.DecodeError as error:
         raise FileFormatError(f"not a score ({error})", file="scores", row=number) from None

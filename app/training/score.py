@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import msgspec
 import numpy as np
 
+from app.calibration.quality.region import ellipsoid
 from app.geometry import Pose
 from app.session.journal import Entry
 from app.simulation.tracker_procedure import miss
@@ -14,12 +15,13 @@ from app.training.advice import Advice, advice_for
 from app.training.attempt import Attempt, follow
 from app.training.cell import at_touch, true_tool
 from app.training.exercise import Exercise
+from app.training.levels import PASS, alone, level_of, levels_of
 from app.training.tracker import relation_of, tracker_truth
 from app.training.travel import off, travel
 from app.training.truth import Truth, draw
 from app.units import deg, mm
 
-#: What each part of a score weighs; parts an exercise has no aim for are left out and the rest is 100.
+#: What each part of a score weighs; parts an exercise has no aim for are left out and the rest is brought to 100.
 WEIGHTS = {
     "accuracy": 50.0,
     "axes": 15.0,
@@ -27,20 +29,27 @@ WEIGHTS = {
     "time": 10.0,
     "travel": 5.0,
     "care": 15.0,
+    "alone": 30.0,
     "tidy": 5.0,
 }
 _NOTHING_LEFT = 4.0  # times the aim: from there on a part counts nothing
 _A_NEAR_MISS = 0.25  # share of `care` that each costs
 _A_REPEAT = 0.2  # share of `tidy` that each point recorded again costs
+_WHOLE = 1e-6  # what a sum of decimals may miss a whole number by
 _NUMBER = 0.3  # share of `answer` that the right touch or joint is worth
 
 
 class Part(msgspec.Struct, frozen=True):
-    """One part of a score: 0 to 1, and its weight."""
+    """One part of a score: 0 to 1, and its weight, a whole number of points."""
 
     key: str
     value: float
     weight: float
+
+    @property
+    def points(self) -> float:
+        """Of the total."""
+        return self.value * self.weight
 
 
 class ScoreCard(msgspec.Struct, frozen=True):
@@ -57,6 +66,7 @@ class ScoreCard(msgspec.Struct, frozen=True):
         answer, number: what the trainee said is wrong; `right_answer`, `right_number` what was.
         given_up: nothing was scored.
         advice: what to do better next.
+        level: how many helps there were; empty in scores of versions that had no levels.
     """
 
     exercise: str
@@ -73,6 +83,17 @@ class ScoreCard(msgspec.Struct, frozen=True):
     right_number: int
     given_up: bool = False
     advice: tuple[Advice, ...] = ()
+    level: str = ""
+
+    @property
+    def passed(self) -> bool:
+        """True where the pass mark was reached."""
+        return not self.given_up and self.total >= PASS
+
+    @property
+    def shown(self) -> list[int]:
+        """Whole points of each part: they add up to the whole points of the total."""
+        return apportioned([part.points for part in self.parts], round(self.total))
 
 
 def score(exercise: Exercise, entries: Sequence[Entry]) -> ScoreCard:
@@ -103,8 +124,7 @@ def score(exercise: Exercise, entries: Sequence[Entry]) -> ScoreCard:
         "calculations": attempt.calculations,
     }
     parts = _parts(exercise, attempt, figures, right, number)
-    weight = sum(part.weight for part in parts)
-    total = 100.0 * sum(part.value * part.weight for part in parts) / weight
+    total = sum(part.points for part in parts)
     finish = attempt.finish
     return ScoreCard(
         exercise.key,
@@ -121,6 +141,7 @@ def score(exercise: Exercise, entries: Sequence[Entry]) -> ScoreCard:
         number,
         finish.given_up,
         () if finish.given_up else advice_for(exercise, figures, parts, attempt.state, finish, right, number),
+        level_of(attempt.begin),
     )
 
 
@@ -143,7 +164,8 @@ def _tool(exercise: Exercise, attempt: Attempt, truth: Truth) -> tuple[dict[str,
             figures["axis_deg"] = deg(angle)
     if result is not None:
         figures["residual_mm"] = mm(result.mean)
-        figures["sigma_mm"] = mm(float(np.linalg.norm(result.sigma_tool)))
+        if len(result.residual_vectors):
+            figures["known_mm"] = mm(float(ellipsoid(result).semi_axes[0]))
     x, y, z = mm(tool.position)
     return figures, {"tool_x_mm": x, "tool_y_mm": y, "tool_z_mm": z}
 
@@ -160,7 +182,7 @@ def _relation(exercise: Exercise, attempt: Attempt, seed: int) -> tuple[dict[str
         "relation_mm": mm(distance),
         "relation_deg": deg(angle),
         "meeting_mm": mm(miss(truth.cell, relation)),
-        "predicted_mm": mm(relation.sigma_meeting),
+        "promised_mm": mm(relation.region_meeting),
     }, hidden
 
 
@@ -181,20 +203,41 @@ def _parts(
         values["axes"] = _within(figures.get("axis_deg"), aims.axis_deg)
     if exercise.question is not None:
         named = finish.answer == right
-        share = _NUMBER if number else 0.0
+        share = _NUMBER if number and exercise.question.number else 0.0  # else it could not be entered
         values["answer"] = named * (1.0 - share + share * (finish.number == number))
     values["time"] = _within(attempt.seconds, 60.0 * aims.minutes)
     if aims.travel_m:
         values["travel"] = _within(figures.get("travel_m"), aims.travel_m)
     if exercise.goal != "relation":
         values["care"] = max(0.0, 1.0 - _A_NEAR_MISS * figures.get("near_misses", 0.0))
-        values["tidy"] = max(0.0, 1.0 - _A_REPEAT * attempt.repeats)
+        if exercise.question is None:  # where something may happen on the way, to record again may be right
+            values["tidy"] = max(0.0, 1.0 - _A_REPEAT * attempt.repeats)
+    if len(levels_of(exercise)) > 1:
+        values["alone"] = alone(exercise, attempt.begin.without)
     done = values["accuracy"] > 0 or values.get("answer", 0.0) > 0
     if not done:  # being quick and careful about nothing is worth nothing
         values = {
             key: value if key in ("accuracy", "axes", "answer") else 0.0 for key, value in values.items()
         }
-    return tuple(Part(key, round(value, 4), WEIGHTS[key]) for key, value in values.items())
+    whole = 100.0 / sum(WEIGHTS[key] for key in values)
+    weights = apportioned([whole * WEIGHTS[key] for key in values], 100)
+    return tuple(
+        Part(key, round(value, 4), float(weight))
+        for (key, value), weight in zip(values.items(), weights, strict=True)
+    )
+
+
+def apportioned(shares: Sequence[float], total: int) -> list[int]:
+    """Whole numbers next to `shares` that add up to `total`: the largest remainders are rounded up (Hamilton).
+
+    Args:
+        shares: whose sum is within 1 of `total`.
+    """
+    whole = [int(np.floor(share + _WHOLE)) for share in shares]
+    by_remainder = sorted(range(len(shares)), key=lambda i: whole[i] - shares[i])
+    for i in by_remainder[: max(total - sum(whole), 0)]:
+        whole[i] += 1
+    return whole
 
 
 def _within(value: float | None, aim: float) -> float:

@@ -7,7 +7,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from app.diagnosis.static.effect import EDGE
+from app.diagnosis.effects.effect import EDGE
 from app.errors import UnknownNameError
 from app.geometry import Pose, exp_so3
 from app.kinematics import RobotModel
@@ -119,7 +119,7 @@ def _fault(part: FaultPart, robot: RobotModel, rng: np.random.Generator) -> Faul
             raise UnknownNameError(name, available=known, what=f"value of {part.effect}")
         sign = rng.choice([-1.0, 1.0]) if part.signs else 1.0
         quantity = known[name]
-        drawn = value / EDGE[quantity.unit] * rng.uniform(1.0 - part.spread, 1.0 + part.spread)
+        drawn = value / EDGE.get(quantity.unit, 1.0) * rng.uniform(1.0 - part.spread, 1.0 + part.spread)
         values[quantity.name] = float(sign * drawn)
     return Fault(part.effect, where, values, part.fixed)
 

@@ -1,11 +1,12 @@
-"""A pendant on a free port, and a Chromium in front of it."""
+"""One server and one Chromium for all browser tests of a process; each person has a session of his own."""
 
 import shutil
 
 import pytest
 
-from app.pendant.server import PendantServer
 from app.session import Store
+from app.session.motion import enabling, pace
+from app.shell.server import PendantServer
 from tests.browser.operator import Operator
 
 FLAGS = [
@@ -21,6 +22,9 @@ FLAGS = [
     "--enable-unsafe-swiftshader",
 ]
 SCREEN = {"width": 1280, "height": 800}
+#: The arm is so many times as quick: what is tried is not its speed.
+BRISK = 6.0
+PATIENT_S = 3.0  # a machine that draws by software and runs other tests beside
 
 
 def chromium_path():
@@ -42,31 +46,31 @@ def chromium():
         browser.close()
 
 
-@pytest.fixture
-def serve(tmp_path):
-    """Starts a pendant: serve(world_of=…, robot=…)."""
-    servers = []
-
-    def start(**arguments):
-        server = PendantServer(Store(tmp_path / "data"), port=0, **arguments)
-        servers.append(server)
-        return server
-
-    yield start
-    for server in servers:
-        server.stop()
+@pytest.fixture(scope="session")
+def served(tmp_path_factory):
+    server = PendantServer(Store(tmp_path_factory.mktemp("data")), port=0, linger=2.0)
+    yield server
+    server.stop()
 
 
 @pytest.fixture
-def sit_down(chromium):
-    """Opens a browser in front of a server and gives the person who sits there."""
+def brisk(monkeypatch):
+    """A quick arm, and a switch that forgives a slow machine: for what is not about either."""
+    monkeypatch.setattr(enabling, "SILENCE", PATIENT_S)
+    monkeypatch.setattr(pace, "TIP_SPEED", BRISK * pace.TIP_SPEED)
+    monkeypatch.setattr(pace, "TURN_SPEED", BRISK * pace.TURN_SPEED)
+
+
+@pytest.fixture
+def sit_down(chromium, served):
+    """Opens a page for somebody: sit_down(robot=…, screen=…, context=…)."""
     contexts = []
 
-    def open_(server, context=None, screen=SCREEN):
+    def open_(robot="ur10e", screen=SCREEN, context=None, touch=False):
         if context is None:
-            context = chromium.new_context(viewport=screen)
+            context = chromium.new_context(viewport=screen, has_touch=touch)
             contexts.append(context)
-        return Operator(context.new_page(), server)
+        return Operator(context.new_page(), served, robot)
 
     yield open_
     for context in contexts:

@@ -1,4 +1,4 @@
-"""Makes the README's picture from the running program: `python -m tests.browser.picture OUT.png`."""
+"""Makes the README's pictures from the running program: `python -m tests.browser.picture [FOLDER]`."""
 
 import sys
 import tempfile
@@ -7,29 +7,80 @@ from pathlib import Path
 from PIL import Image
 from playwright.sync_api import sync_playwright
 
-from app.pendant.server import PendantServer
 from app.session import Store
-from tests.browser.conftest import FLAGS, SCREEN, chromium_path
+from app.session.motion import enabling, pace
+from app.shell.server import PendantServer
+from tests.browser.conftest import BRISK, FLAGS, PATIENT_S, SCREEN, chromium_path
 from tests.browser.operator import Operator
 
 
-def take(out: Path) -> None:
-    """The pendant with the result of the paper's table."""
-    with tempfile.TemporaryDirectory() as folder, sync_playwright() as playwright:
-        server = PendantServer(Store(Path(folder)), port=0)
+def paper(person: Operator) -> None:
+    """The result of the paper's table."""
+    person.unfold("Examples and files")
+    person.click("Load the paper's table")
+    with person.holding():
+        person.until(lambda: person.state.result is not None, "the result")
+        person.at_rest()
+
+
+def exercise(person: Operator) -> None:
+    """An exercise while it is done: the task above the work."""
+    person.screen("training")
+    person.click("Begin")
+    person.until(lambda: person.state.running is not None, "the exercise")
+    person.page.get_by_role("button", name="Record Touch 1", exact=True).wait_for()
+
+
+def two_robots(person: Operator) -> None:
+    """Two robots around a tracker, measured, at one point."""
+    person.screen("base")
+    person.click("Open the cell")
+    person.reads("base-plan", "Robot 1")
+    person.click("Run the whole procedure")
+    view = person.view("run")
+    assert view is not None
+    with person.holding():
+        person.until(lambda: view.run.relation is not None, "the relation")
+        person.at_rest()
+
+
+def compare(person: Operator) -> None:
+    """A recording with a fault in it, found."""
+    person.screen("compare")
+    person.click("Record with a hidden fault")
+    person.page.get_by_role("button", name="Find what is missing", exact=True).wait_for(timeout=60_000)
+    person.click("Find what is missing")
+    person.page.get_by_test_id("compare-verdict").wait_for(timeout=120_000)
+
+
+PICTURES = {"pendant": paper, "training": exercise, "two_robots": two_robots, "compare": compare}
+ROBOTS = {"pendant": "jby50", "training": "jby50", "two_robots": "irb120", "compare": "ur10e"}
+
+
+def take(folder: Path, names: list[str]) -> None:
+    """The pictures of these names."""
+    enabling.SILENCE, pace.TIP_SPEED, pace.TURN_SPEED = (
+        PATIENT_S,
+        BRISK * pace.TIP_SPEED,
+        BRISK * pace.TURN_SPEED,
+    )
+    folder.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory() as data, sync_playwright() as playwright:
+        server = PendantServer(Store(Path(data)), port=0)
         browser = playwright.chromium.launch(executable_path=chromium_path(), args=FLAGS)
         try:
-            person = Operator(browser.new_context(viewport=SCREEN).new_page(), server)
-            person.click("Load the paper's table")
-            person.until(lambda: person.state.result is not None, "the result")
-            person.at_rest()
-            person.close_notice()
-            person.page.wait_for_timeout(3000)
-            person.close_notice()
-            person.page.wait_for_timeout(1000)
-            out.parent.mkdir(parents=True, exist_ok=True)
-            person.page.screenshot(path=str(out))
-            make_light(out)
+            for name in names:
+                context = browser.new_context(viewport=SCREEN)
+                person = Operator(context.new_page(), server, ROBOTS[name])
+                person.scene_is_there()
+                PICTURES[name](person)
+                # At full resolution, which software draws slowly: nobody holds anything any more.
+                scene = person.page.locator("#scene")
+                scene.evaluate("frame => { frame.src = '/scene/'; }")
+                person.page.wait_for_timeout(9000)
+                person.page.screenshot(path=str(folder / f"{name}.png"))
+                make_light(folder / f"{name}.png")
+                context.close()
         finally:
             browser.close()
             server.stop()
@@ -42,4 +93,4 @@ def make_light(path: Path) -> None:
 
 
 if __name__ == "__main__":
-    take(Path(sys.argv[1] if len(sys.argv) > 1 else "static/pictures/pendant.png"))
+    take(Path(sys.argv[1] if len(sys.argv) > 1 else "static/pictures"), sys.argv[2:] or list(PICTURES))

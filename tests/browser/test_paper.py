@@ -4,21 +4,29 @@ import numpy as np
 import pytest
 
 from app.calibration.solving import solve_file
-from app.pendant.screens._tool.paper import PAPER
+from app.screens._tool.paper import PAPER
 from app.units import mm
 
-pytestmark = [pytest.mark.browser, pytest.mark.xdist_group("browser")]
+pytestmark = pytest.mark.browser
 
 
-def test_the_papers_table_is_played_and_explained(serve, sit_down):
-    person = sit_down(serve(robot="ur10e"))
-    other = person.pendant.q.copy()
+def test_the_papers_table_is_played_and_explained(sit_down, brisk):
+    person = sit_down()
+    other = person.q
+    person.unfold("Examples and files")
     person.click("Load the paper's table")
     person.until(lambda: person.state.robot == "jby50", "the paper's arm")
     person.until(lambda: len(person.state.captures) == 6, "six points")
-    person.until(lambda: person.state.result is not None, "the result")
-    person.at_rest()
-    assert len(person.pendant.q) == len(other)
+    with person.holding():
+        person.until(lambda: person.state.result is not None, "the result")
+        person.at_rest()
+    # The verdict is read first: the list was scrolled down to the examples, the result stands at the top.
+    person.until(
+        lambda: person.page.evaluate("document.getElementById('work').scrollTop === 0"),
+        "the verdict to be on top",
+    )
+    person.unfold("Details")
+    assert len(person.q) == len(other)
 
     expected = solve_file(PAPER, method="pairwise", orientation="zx")
     result = person.state.result.result
@@ -32,8 +40,7 @@ def test_the_papers_table_is_played_and_explained(serve, sit_down):
     assert person.seen("light")
     person.picture("paper_light")
 
-    person.tab("Cell")
-    person.page.get_by_label("Dark page", exact=True).click()
-    person.until(lambda: person.pendant.dark, "the dark page")
+    person.page.locator("#theme").click()
+    person.page.locator("html[data-theme=dark]").wait_for()
     person.picture("paper_dark")
     assert not person.faults

@@ -11,28 +11,36 @@ from app.resources import STATIC
 from app.session import Session
 from app.session.actions import Calculate, ChooseMode, Enter
 from tests.calibration.drawing import captures, touches
-from tests.pendant.tool.test_checks_shown import CASES
+from tests.screens.tool.test_checks_shown import CASES
 from tests.session.wizard import wizard_actions
 
-pytestmark = [pytest.mark.browser, pytest.mark.xdist_group("browser")]
+pytestmark = pytest.mark.browser
 
 SEEN = ("bumped spike", "wrong Euler order", "orientation changed", "too few")
 TABLE_1 = STATIC / "samples" / "xiong2012_table1.csv"
 
 
-def test_a_person_reads_what_went_wrong_by_name_with_the_advice(serve, sit_down, tmp_path):
-    person = sit_down(serve(robot="ur10e"))
+def showing(person, place):
+    """Whether a result, or a refusal, is there."""
+    return person.state.result is not None if place == "notes" else person.view("deciding")._refused.visible
+
+
+def test_a_person_reads_what_went_wrong_by_name_with_the_advice(sit_down, brisk, tmp_path):
+    person = sit_down()
+    person.unfold("Examples and files")
     for case in SEEN:
         _, text, words = CASES[case]
         path = tmp_path / f"{case.replace(' ', '_')}.csv"
         path.write_text(text(), encoding="utf-8")
-        with person.page.expect_file_chooser() as chooser:
-            person.click("Load a points file")
-        chooser.value.set_files(path)
+        person.page.get_by_label("Load a points file", exact=True).set_input_files(path)
         place = "refused" if case == "too few" else "notes"
+        with person.holding():
+            person.until(lambda place=place: showing(person, place), f"the arm to have gone through {case}")
+            person.at_rest()
+        if place == "notes":
+            person.unfold("Details")
         shown = person.page.get_by_test_id(place).filter(has_text=words[0])
         shown.first.wait_for(timeout=60_000)
-        person.at_rest()
         said = person.seen(place)
         assert all(word in said for word in words), said
         person.picture(f"check_{case.replace(' ', '_')}")
@@ -58,7 +66,7 @@ def typed():
 
 def many_touches_with_remarks(tmp_path):
     """Sixteen touches, one of which missed, several of them alike."""
-    from tests.pendant.tool.test_checks_shown import text_of
+    from tests.screens.tool.mistakes import text_of
 
     rotations, positions = touches(16, 0.1, 1e-4, 2)
     positions[3] += np.array([0.0, 0.004, 0.0])

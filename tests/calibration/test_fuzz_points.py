@@ -4,7 +4,8 @@ import numpy as np
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from app.calibration.solving import solve_file, to_json
+from app.calibration.as_json import solved_json
+from app.calibration.solving import solve_file
 from app.calibration.text import page
 from app.errors import TeachframeError
 from app.resources import STATIC
@@ -39,7 +40,7 @@ def attempt(path):
     try:
         solved = solve_file(path)
         assert page(solved)
-        assert len(to_json(solved.result)["tool_mm"]) == 3
+        assert len(solved_json(solved)["tool_mm"]) == 3
     except TeachframeError as error:
         assert "\n" not in str(error) and str(path) in str(error)
 

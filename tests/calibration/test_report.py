@@ -22,7 +22,6 @@ def test_the_sheet_holds_picture_points_residuals_uncertainty_conditions_and_sig
     for part in (
         "<h1>",
         "119.621",
-        "std error",
         "95%",
         "Touches",
         "4 (worst)",

@@ -60,9 +60,11 @@ def test_a_speed_that_never_changes_is_said_and_changes_no_name(texts, arm, tmp_
 
 
 @pytest.mark.parametrize("prefixes", [("q", "qd"), ("tau",), ("q", "qd", "tau")])
-def test_swapped_joints_are_refused_by_name(texts, prefixes, tmp_path):
+def test_swapped_joints_are_undone_and_said(texts, prefixes, tmp_path):
     recording = swapped(Recording(texts["rough"]), 2, 4, *prefixes)
-    refused(recording, tmp_path / "r.csv", "joints 2 and 4 look swapped")
+    out, named = diagnosed(recording, tmp_path / "r.csv")
+    assert named == [("wrong_convention", 2), TRUTH]
+    assert "joints 2 and 4 are changed over" in str(out["findings"])
 
 
 def test_degrees_marked_as_radians_are_refused(texts, tmp_path):
@@ -73,11 +75,13 @@ def test_degrees_marked_as_radians_are_refused(texts, tmp_path):
 
 
 @pytest.mark.parametrize("joint", [2, 3])
-def test_one_joint_in_radians_under_names_in_degrees_is_refused(texts, joint, arm, tmp_path):
+def test_one_joint_in_radians_under_names_in_degrees_is_undone_and_said(texts, joint, arm, tmp_path):
     recording = Recording(texts[arm])
     renamed = {f"q{joint}_rad": f"q{joint}_deg", f"qd{joint}_rad_s": f"qd{joint}_deg_s"}
     recording.names = [renamed.get(name, name) for name in recording.names]
-    refused(recording, tmp_path / "r.csv", f"joint {joint} look like radians")
+    out, named = diagnosed(recording, tmp_path / "r.csv")
+    assert named == [("wrong_convention", joint), *([TRUTH] if arm == "rough" else [])]
+    assert f"the positions of joint {joint} are true at 57.3 times what is written" in str(out["findings"])
 
 
 def test_currents_without_gains_ask_for_them_or_mark_their_own(texts, arm, tmp_path):
@@ -97,9 +101,9 @@ def test_a_third_of_corrupt_rows_is_counted_and_gives_no_wrong_name(texts, arm, 
     assert named in ([], [TRUTH]) if arm == "rough" else not named
 
 
-def test_torques_of_another_size_name_nothing(texts, tmp_path):
+def test_torques_of_another_size_are_a_factor_of_all(texts, tmp_path):
     recording = Recording(texts["rough"])
     for j in range(1, 7):
         recording.change(f"tau{j}_Nm", lambda k, v: str(float(v) / 1e3))
     _, named = diagnosed(recording, tmp_path / "r.csv")
-    assert not named
+    assert sorted(named, key=str) == sorted([("torque_constant", None), TRUTH], key=str)

@@ -50,6 +50,17 @@ def test_the_table_shows_arcs_frame_and_uncertainty(capsys, good):
         assert part in out
 
 
+def test_every_uncertainty_of_the_table_is_a_95_percent_interval(capsys, tmp_path):
+    first, second, _, _ = cell()
+    path = write(tmp_path / "a.csv", first, second, keys=["noise_mm: 0.02"])
+    _, out, _ = _base(capsys, path, "--json")
+    said = json.loads(out)["robots"][0]
+    _, out, _ = _base(capsys, path)
+    sure = next(line for line in out.splitlines() if "95% ±" in line).split()
+    np.testing.assert_allclose([float(v) for v in sure[2:5]], 1.96 * np.array(said["sigma_mm"]), atol=6e-4)
+    assert f"± {1.96 * said['sigma_axis_distance_mm']:.3f} mm apart" in out and "sigma" not in out
+
+
 def test_a_description_gives_the_makers_frame_beside_it(capsys, tmp_path):
     first, second, _, _ = cell()
     path = write(tmp_path / "a.csv", first, second, keys=["robot: ur10e"])

@@ -8,7 +8,7 @@ import pytest
 from app import catalog
 from tests.cli.running import assert_one_line, teachframe
 
-COMMANDS = catalog.module_names("app.cli.commands")
+COMMANDS = [name.replace("_", "-") for name in catalog.module_names("app.cli.commands")]
 
 
 @pytest.mark.parametrize("name", COMMANDS)

@@ -56,7 +56,7 @@ def test_json_is_one_line_in_the_contract_format(tmp_path, engine):
     assert out["format"] == "teachframe.diagnosis/1"
     assert out["file"] == str(path) and out["kind"] == "touch"
     assert set(out) >= {
-        "robot", "samples", "verdict", "noise", "before", "after", "findings", "outliers", "leftover",
+        "robot", "samples", "verdict", "noise", "before", "after", "findings", "families", "outliers", "leftover",
         "next_poses", "seconds",
     }  # fmt: skip
     assert set(out["findings"][0]) == {

@@ -41,7 +41,7 @@ def test_a_joint_zero_becomes_part_of_the_description(robot, tmp_path):
 @pytest.mark.parametrize("link", [1, 2, 4, 6])
 @pytest.mark.parametrize("axis", ["a", "d", "alpha", "beta"])
 def test_a_link_becomes_as_long_and_as_twisted_as_found(robot, tmp_path, link, axis):
-    from app.diagnosis.static.geometry import AXES, link_axes
+    from app.diagnosis.models.kinematic.geometry import AXES, link_axes
 
     key, amount = ("link_length", 0.002) if axis in ("a", "d") else ("link_twist", 0.003)
     new, _ = corrected(robot, tmp_path, ModelEffect(key, {"link": link, "axis": axis}, {"value": amount}))
@@ -83,3 +83,27 @@ def test_what_a_urdf_cannot_say_is_named(robot, tmp_path):
     assert len(left) == 1 and "joint_compliance" in left[0]
     with pytest.raises(InputError, match="joint_compliance"):
         corrected(robot, tmp_path, soft)
+
+
+@pytest.mark.parametrize("kind", ["table", "prefix", "calibrated"])
+def test_what_is_no_plain_urdf_is_corrected_too(tmp_path, kind):
+    if kind == "table":
+        path = tmp_path / "arm.csv"
+        path.write_text("a_mm,alpha_deg,d_mm,theta_deg\n0,90,300,0\n400,0,0,0\n")
+    elif kind == "calibrated":
+        calibration = tmp_path / "c.conf"
+        rows = "\n".join(f"delta_{k} = [0.001, 0, 0, 0, 0, 0]" for k in ("theta", "a", "d", "alpha"))
+        calibration.write_text("[mounting]\n" + rows)
+        path = f"ur10e#calibration={calibration}"
+    else:
+        path = tmp_path / "arm.urdf"
+        path.write_text(
+            load_robot("ur5").path.read_text().replace("</robot>", "<gazebo><a:b/></gazebo></robot>")
+        )
+    robot = load_robot(path)
+    effect = ModelEffect("joint_zero", {"joint": 2}, {"offset": np.radians(1.0)})
+    save_corrected_urdf(robot, SavedModel("static", robot.name, (effect,), {}, ""), tmp_path / "out.urdf")
+    corrected = load_robot(f"{tmp_path / 'out.urdf'}#flange={robot.flange}")
+    q = np.linspace(0.1, 0.6, robot.joint_count)
+    moved = q + np.radians(1.0) * (np.arange(robot.joint_count) == 1)
+    assert np.allclose(corrected.forward(q).matrix, robot.forward(moved).matrix, atol=1e-6)

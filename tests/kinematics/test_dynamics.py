@@ -9,7 +9,7 @@ import pytest
 from app.kinematics import load_robot
 from app.kinematics.dynamics import (
     flange_to_last_link,
-    gravity_and_force_columns,
+    gravity_and_wrench_columns,
     inertial_parameters,
     inverse_dynamics,
     point_mass,
@@ -70,19 +70,19 @@ def _scara(folder):
 
 def test_gravity_columns_hold_the_arm_under_any_gravity(case):
     robot, q, qd, _ = case
-    columns, _ = gravity_and_force_columns(robot, q)
+    columns, _ = gravity_and_wrench_columns(robot, q)
     gravity = np.array([0.5, 1.5, -9.0])
     np.testing.assert_allclose(
         columns @ gravity, inverse_dynamics(robot, q, 0 * qd, 0 * qd, gravity=gravity), atol=SAME
     )
 
 
-def test_a_force_on_the_flange_is_the_transposed_jacobian(case):
+def test_a_wrench_at_the_flange_is_the_transposed_jacobian(case):
     robot, q, _, _ = case
-    _, columns = gravity_and_force_columns(robot, q)
-    force = np.array([3.0, -4.0, 5.0])
+    _, columns = gravity_and_wrench_columns(robot, q)
+    wrench = np.array([3.0, -4.0, 5.0, 0.7, -0.2, 0.4])
     for row, pose in zip(columns, q, strict=True):
-        np.testing.assert_allclose(row @ force, robot.jacobian(pose)[:3].T @ force, atol=SAME)
+        np.testing.assert_allclose(row @ wrench, robot.jacobian(pose).T @ wrench, atol=SAME)
 
 
 def test_a_mass_on_the_flange_is_a_heavier_last_link(case):

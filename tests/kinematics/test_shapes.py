@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from app.errors import FileFormatError
+from app.errors import InputError
 from app.kinematics import load_robot, robot_names
 from app.kinematics.shapes import ball, box, read_shapes, rod
 from app.kinematics.solids import faces, outline, robot_shapes, robot_solids, solids, tool_shapes
@@ -123,5 +123,5 @@ def test_a_description_without_shapes_becomes_a_stick_figure(tmp_path):
 def test_a_shape_without_its_size_is_refused(tmp_path, wrong):
     path = tmp_path / "r.urdf"
     path.write_text(ARM.replace('<box size="1 2 3"/>', wrong, 1))
-    with pytest.raises(FileFormatError, match="link 'base' lacks its size"):
+    with pytest.raises(InputError, match="of link 'base'"):
         read_shapes(path, ("j",))

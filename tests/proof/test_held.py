@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from app import catalog
-from app.diagnosis.model import ModelEffect, SavedModel, save_model
+from app.diagnosis.model import ModelEffect, SavedModel, load_model, save_model
 from app.errors import InputError
 from app.proof.generator.effects.term import Request
 from app.proof.generator.motion.making import MotionPlan, make_motion
@@ -115,3 +115,22 @@ def test_a_model_of_another_arm_or_kind_is_refused(tmp_path):
         terms_of(
             SavedModel("static", "ur10e", (ModelEffect("telepathy", {}, {}),)), "touch", "ur10e", samples=9
         )
+
+
+def test_a_hand_that_the_arm_has_not_is_a_load_below_nothing_in_a_log_and_in_a_log_only(tmp_path):
+    hand = ModelEffect("payload", {"body": "tool"}, {"mass": -0.8, "com_x": 0.0, "com_y": 0.0, "com_z": 0.05})
+    save_model(SavedModel("motion", "ur10e", (hand,)), tmp_path / "log.json")
+    assert load_model(tmp_path / "log.json").effects == (hand,)
+    with pytest.raises(InputError):
+        save_model(SavedModel("static", "ur10e", (hand,)), tmp_path / "touch.json")
+        load_model(tmp_path / "touch.json")
+
+
+def test_what_holds_for_one_log_only_is_left_out_of_a_simulation_and_said():
+    rest = ModelEffect("rest_friction", {"joint": 2, "from_s": 0.0, "to_s": 2.0}, {"level": 3.0})
+    curve = ModelEffect("smooth_torque", {"joint": 1, "driver": "speed"}, {"height1": 1.0})
+    terms, left_out = terms_of(
+        SavedModel("motion", "ur10e", (rest, curve)), "motion", "ur10e", samples=500, seconds=4.0
+    )
+    assert not terms
+    assert ["rest_friction" in left_out[0], "smooth_torque" in left_out[1]] == [True, True]

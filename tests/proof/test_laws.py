@@ -4,20 +4,21 @@ import numpy as np
 import pytest
 
 from app import catalog
-from app.diagnosis.effects.motion._state import State
-from app.diagnosis.static.cell import nominal_cell, pose
-from app.diagnosis.static.conventions import QUARTER, SIGN, SWAP
-from app.diagnosis.static.effect import Place
-from app.diagnosis.static.situation import situation_for
+from app.diagnosis.effects.effect import Place
+from app.diagnosis.models.dynamic.hypothesis import as_given
+from app.diagnosis.models.dynamic.state import State
+from app.diagnosis.models.kinematic.cell import nominal_cell, pose
+from app.diagnosis.models.kinematic.situation import situation_for
+from app.diagnosis.observations.conventions import QUARTER, SIGN, SWAP
 from app.kinematics import load_robot
 from app.kinematics.dynamics import (
     flange_to_last_link,
-    gravity_and_force_columns,
+    gravity_and_wrench_columns,
     inertial_parameters,
 )
 from app.kinematics.regressor import torque_regressor
 from app.proof.generator.effects.term import Request
-from app.proof.generator.motion.cell import effect_on_torques
+from app.proof.generator.motion.cell import STANDSTILL, effect_on_torques
 from app.proof.generator.motion.making import MotionPlan, make_motion
 from app.proof.generator.static.cell import contact, goals, seen, world_with
 from app.proof.generator.static.making import Plan, make
@@ -30,9 +31,9 @@ INTERPOLATED = 0.02  # relative; the library interpolates a late torque linearly
 MOVING = 0.03  # rad/s; slower, the two round off the sign of the speed differently
 
 OURS = catalog.members("app.proof.generator.effects.static", "EFFECT")
-THEIRS = catalog.members("app.diagnosis.effects.static", "EFFECT")
+THEIRS = catalog.members("app.diagnosis.effects.kinematic", "EFFECT")
 OURS_MOTION = catalog.members("app.proof.generator.effects.motion", "EFFECT")
-THEIRS_MOTION = catalog.members("app.diagnosis.effects.motion", "EFFECT")
+THEIRS_MOTION = catalog.members("app.diagnosis.effects.dynamic", "EFFECT")
 
 
 def _place_and_values(effect, situation, term):
@@ -102,26 +103,31 @@ def _state(robot, cell) -> State:
     q, qd, qdd = cell.state
     columns = torque_regressor(robot, q, qd, qdd)
     rigid = columns @ inertial_parameters(robot)
-    gravity, force = gravity_and_force_columns(robot, q)
-    step = 1e-5
-    ahead, back = (
-        torque_regressor(robot, *cell.path(cell.t + s)) @ inertial_parameters(robot) for s in (step, -step)
-    )
+    gravity, force = gravity_and_wrench_columns(robot, q)
+    n = cell.arm.n
     return State(
+        hypothesis=as_given(n),
         t=cell.t,
         q=q,
         qd=qd,
         qdd=qdd,
+        fine=qd[:, None],
+        regressor=columns,
         torque=rigid,
-        torque_rate=(ahead - back) / (2 * step),
-        gravity_torque=gravity @ np.array([0.0, 0.0, -9.81]),
-        gravity_columns=gravity,
-        force_columns=force,
+        drive=rigid,
+        levers=lambda: (gravity, force),
         payload_columns=columns[:, :, -10:] @ flange_to_last_link(robot),
         temperature=None,
+        commanded=None,
         speed=np.quantile(np.abs(qd), 0.9, axis=0),
         seconds=float(cell.t[-1]),
-        sliding=np.zeros(cell.arm.n, bool),
+        window=0.0,
+        sliding=np.zeros(n, bool),
+        width=np.full(n, STANDSTILL),
+        still=np.full(n, STANDSTILL),
+        size=np.ones(n),
+        link_mass=np.ones(n),
+        link_size=np.ones(n),
     )
 
 
@@ -133,11 +139,13 @@ def test_the_library_adds_the_torque_that_the_generator_does(key, topology, tmp_
     made = make_motion(MotionPlan(samples=1200), arm, arm, [Request(key)], np.random.default_rng(4))
     term = made.terms[0]
     ours = effect_on_torques(made.cell, made.terms, term)
-    theirs = THEIRS_MOTION[key].apply(_state(robot, made.cell), term.where, term.parameters)
-    if theirs.ndim == 1:
-        whole = np.zeros_like(ours)
-        whole[:, term.where["joint"] - 1] = theirs
-        theirs = whole
+    theirs, parameters = np.zeros_like(ours), term.parameters
+    if key == "link_inertia":  # a heavier link by one number, where the library has all ten
+        k = term.where["link"] - 1
+        ten = inertial_parameters(robot)[10 * k : 10 * k + 10]
+        parameters = dict(zip(THEIRS_MOTION[key].linear, ten * parameters["mass"] / ten[0], strict=True))
+    for joint, torque in THEIRS_MOTION[key].torque(_state(robot, made.cell), term.where, parameters).items():
+        theirs[:, joint] = torque
     moving = np.abs(made.cell.qd) > MOVING
     moving[:10] = False  # a late torque has no past at the start
     assert np.all(moving.sum(axis=0) > 100)

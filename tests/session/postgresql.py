@@ -30,7 +30,7 @@ def any_postgresql():
     programs = _programs()
     if programs is None:
         pytest.skip(f"no PostgreSQL: ${GIVEN} is not set and there is no pg_ctl on this machine")
-    with _cluster(programs) as url:
+    with cluster(programs) as (url, _):
         yield url
 
 
@@ -59,7 +59,8 @@ def _programs():
 
 
 @contextmanager
-def _cluster(programs):
+def cluster(programs):
+    """URL of a server of our own, and what calls its programs: `call("pg_ctl", "stop", "-m", "immediate")` kills it."""
     folder = Path(tempfile.mkdtemp(prefix="teachframe-pg-"))
     user = _USER if os.geteuid() == 0 else None
     if user is not None:
@@ -74,12 +75,14 @@ def _cluster(programs):
             done = subprocess.run(command, user=user, cwd=folder, stdout=said, stderr=said)
         assert done.returncode == 0, (folder / "said").read_text()
 
-    settings = f"-p {port} -c listen_addresses=127.0.0.1 -c unix_socket_directories={folder}"
+    settings = f"port={port}\nlisten_addresses='127.0.0.1'\nunix_socket_directories='{folder}'\n"
     try:
         call("initdb", "--auth=trust", "--no-sync", "-E", "UTF8")
-        call("pg_ctl", "start", "-w", "-o", settings)
+        with (folder / "data" / "postgresql.conf").open("a") as conf:
+            conf.write(settings)
+        call("pg_ctl", "start", "-w")
         try:
-            yield f"postgresql://{user or getpass.getuser()}@127.0.0.1:{port}/postgres"
+            yield f"postgresql://{user or getpass.getuser()}@127.0.0.1:{port}/postgres", call
         finally:
             call("pg_ctl", "stop", "-w", "-m", "immediate")
     finally:

@@ -21,7 +21,7 @@ from app.session.actions import (
 )
 
 TOOL = ("gun", tuple(Pose.of(position=np.array([0.0, 0.0, 0.3])).matrix.ravel()))
-BEGIN = Begin("any", 5, 1.0, "ur10e", "touch", 5, (TOOL,))
+BEGIN = Begin("first_tool", 5, 1.0, "ur10e", "touch", 5, (TOOL,))
 
 
 @pytest.fixture
@@ -67,7 +67,7 @@ def test_finish_ends_it_once(session):
 def test_a_tracker_exercise_keeps_its_procedure_in_the_journal(tmp_path):
     store = Store(tmp_path)
     session = store.create()
-    session.do(Begin("any", 5, 1.0, "ur10e", "touch", tracker="bare"))
+    session.do(Begin("first_tool", 5, 1.0, "ur10e", "touch", tracker="bare"))
     session.do(Tracked((1.0, 2.0, 3.0), sigma=1e-5))
     session.do(TrackerNext())
     session.do(Tracked((1.0, 2.0, 3.5), angle=0.2))

@@ -3,7 +3,8 @@ import numpy as np
 import pytest
 
 from app import resources
-from app.calibration.solving import solve_file, to_json
+from app.calibration.as_json import solved_json
+from app.calibration.solving import solve_file
 from app.calibration.text import page
 from app.errors import ActionRefusedError, InputError
 from app.session import Store, reduce
@@ -24,7 +25,7 @@ def test_a_loaded_file_gives_the_same_text_and_json_as_solve(loaded):
     state = reduce(loaded, Calculate())
     solved = solve_file(PAPER, method="pairwise", orientation="zx")
     assert report_text(state) == page(solved)
-    assert report_json(state) == msgspec.json.encode(to_json(solved.result)).decode()
+    assert report_json(state) == msgspec.json.encode(solved_json(solved)).decode()
 
 
 def test_a_session_with_loaded_points_replays_without_the_file(tmp_path):

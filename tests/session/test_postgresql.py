@@ -11,8 +11,7 @@ from app.session.actions import Delete, Move
 from app.session.database import Database
 from app.training.exercise import exercise
 from app.training.records import Records
-from tests.pendant.test_server_kills import KILLS, killed_while_teaching
-from tests.session.postgresql import any_postgresql, schema
+from tests.session.postgresql import schema
 from tests.session.test_store import (  # noqa: F401  collected here too, with the store of this file
     taught,
     test_a_refused_action_leaves_state_and_journal_untouched,
@@ -24,15 +23,10 @@ from tests.session.test_store import (  # noqa: F401  collected here too, with t
     test_sessions_are_listed_the_newest_first_with_their_arm,
     test_two_writers_of_one_session_cannot_both_have_a_number,
 )
+from tests.shell.test_server_kills import KILLS, killed_while_teaching
 from tests.training.test_score import GOOD
 
 pytestmark = pytest.mark.xdist_group("pendant_server")
-
-
-@pytest.fixture(scope="module")
-def postgresql():
-    with any_postgresql() as url:
-        yield url
 
 
 @pytest.fixture

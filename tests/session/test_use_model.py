@@ -42,7 +42,7 @@ def test_another_arm_comes_as_described():
         (SavedModel("static", "iiwa7"), "model_robot"),
         (
             SavedModel("static", "ur10e", (ModelEffect("joint_zero", {"joint": 9}, {"offset": 1.0}),)),
-            "model_robot",
+            "unknown",
         ),
         (SavedModel("static", "ur10e", (ModelEffect("telepathy", {}, {}),)), "unknown"),
         (SavedModel("static", "ur10e", (ModelEffect("joint_zero", {"joint": 1}, {}),)), "unknown"),

@@ -5,7 +5,7 @@ import pytest
 
 from app.geometry import Pose, exp_so3
 from app.kinematics import load_robot, robot_names, solve_ik
-from app.pendant.guarding import guard_of
+from app.session.motion.guarding import guard_of
 from app.simulation.guard import MARGIN, Stop
 from app.simulation.route import route
 from app.simulation.world import default_world

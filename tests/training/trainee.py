@@ -12,6 +12,7 @@ from app.session.actions import Accept, Calculate, Finish, Move, Record, ReRecor
 from app.session.state import as_tuple
 from app.simulation.tracker_procedure import WIDEST
 from app.training.cell import begin, world_now
+from app.training.levels import LEVELS
 from app.training.score import score
 from app.training.tracker import tracker_truth
 from app.training.truth import draw
@@ -36,6 +37,7 @@ class Trainee:
         again: when something happened on the way, what came before it is recorded once more.
         stroke: length of strokes [m].
         sloppy: records without touching: this far off [m].
+        level: how many helps there are; nobody here uses one.
     """
 
     tilts: tuple = FAR
@@ -45,11 +47,12 @@ class Trainee:
     again: bool = True
     stroke: float = 0.15
     sloppy: float = 0.0
+    level: str = "eye"
 
     def does(self, exercise, seed, *, session=None):
         """The session after the exercise; its entries are the journal."""
         session = session or Session()
-        session.do(begin(exercise, seed, 1000.0))
+        session.do(begin(exercise, seed, 1000.0, without=LEVELS[self.level]))
         if exercise.goal == "relation":
             self._measures(session, exercise, seed)
         else:

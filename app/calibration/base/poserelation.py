@@ -6,9 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from app.calibration.base.checks.units import units_of_poses
 from app.calibration.base.frame import adjoint
 from app.calibration.base.poses import PoseBase
-from app.calibration.base.wording import remark
+from app.calibration.base.wording import phrase, remark
 from app.calibration.result import Warning_
 from app.geometry import Pose
 from app.kinematics import RobotModel
@@ -86,8 +87,27 @@ def relate_poses(
     return PoseRelation(None, covariance, (seen,))
 
 
-def pose_warnings(base: PoseBase) -> tuple[Warning_, ...]:
-    """What a person should know of a base from poses."""
+def pose_warnings(base: PoseBase, rows: np.ndarray) -> tuple[Warning_, ...]:
+    """What a person should know of a base from poses.
+
+    Args:
+        rows: (n,) line in the file of every pose.
+    """
+    if base.scale is not None:  # nothing else that could be said of these numbers means anything
+        return (units_of_poses(*base.scale),)
+    return (*_aside(base, rows), *_weak(base))
+
+
+def _aside(base: PoseBase, rows: np.ndarray) -> tuple[Warning_, ...]:
+    if not base.aside:
+        return ()
+    named = tuple(
+        phrase("rows.off", row=int(rows[i]), off=mm(d)) for i, d in zip(base.aside, base.off, strict=True)
+    )
+    return (remark("outlier", "outlier_poses", rows=named, rms=mm(base.heldout_rms)),)
+
+
+def _weak(base: PoseBase) -> tuple[Warning_, ...]:
     worst = float(np.sqrt(np.linalg.eigvalsh(base.covariance[:3, :3])[-1]))
     if worst < _WEAK:
         return ()

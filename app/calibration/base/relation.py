@@ -13,6 +13,7 @@ from app.calibration.base.result import BaseCalibration
 from app.calibration.base.wording import phrase
 from app.calibration.result import Warning_
 from app.errors import DegenerateGeometryError
+from app.estimation import reach
 from app.geometry import Pose, fit_rigid
 from app.phrases import Phrase
 
@@ -67,6 +68,11 @@ class Relation:
     def sigma_meeting(self) -> float:
         """One-sigma length of the miss where the tools meet [m]."""
         return float(np.sqrt(np.trace(self.covariance_meeting)))
+
+    @property
+    def region_meeting(self) -> float:
+        """Longest half axis of the region that holds the miss in 95 of 100 cases [m]."""
+        return reach(0) * float(np.sqrt(max(np.linalg.eigvalsh(self.covariance_meeting)[-1], 0.0)))
 
 
 def relate(first: BaseCalibration, second: BaseCalibration, meeting: np.ndarray | None = None) -> Relation:

@@ -1,4 +1,4 @@
-"""A base calibration as JSON (teachframe.base/1) and as a page of text."""
+"""A base calibration as JSON (teachframe.base/1, `sigma_…` one-sigma) and as a page of text (95%, as the screens)."""
 
 from __future__ import annotations
 
@@ -13,12 +13,15 @@ from app.calibration.base.relation import Relation
 from app.calibration.base.result import BaseCalibration
 from app.calibration.base.wording import TEXTS
 from app.calibration.result import Warning_
+from app.estimation import reach
 from app.geometry import Pose
 from app.geometry.conventions import convention
 from app.phrases import FALLBACK, Phrase, padded
 from app.units import deg, mm
 
 FORMAT = "teachframe.base/1"
+#: Standard errors in half a 95% interval; the noise of a coordinate comes from hundreds of readings.
+HALF = reach(0, dimensions=1)
 
 
 def matrix_mm(pose: Pose) -> list[list[float]]:
@@ -107,6 +110,7 @@ def base_json(bases: Sequence[BaseCalibration], relation: Relation | None) -> di
             else None,
             "meeting_mm": mm(relation.meeting).tolist(),
             "sigma_meeting_mm": mm(relation.sigma_meeting),
+            "region_meeting_mm": mm(relation.region_meeting),
             "covariance_m_rad": relation.covariance.tolist(),
             "notes": [str(note) for note in relation.notes],
         }
@@ -120,11 +124,11 @@ def pose_lines(pose: Pose) -> str:
     return f"{x:>11.3f} {y:>11.3f} {z:>11.3f} mm   A {a:>9.4f}  B {b:>9.4f}  C {c:>9.4f} deg"
 
 
-def sigma_line(position: np.ndarray, rotation: np.ndarray, frame: str, language: str) -> str:
-    """The uncertainty under a pose: (3,) [m] and (3,) [rad] along and about its axes."""
-    sp, sr = mm(position), deg(rotation)
+def half_line(sigma_position: np.ndarray, sigma_rotation: np.ndarray, frame: str, language: str) -> str:
+    """The 95% half widths under a pose, from one-sigma (3,) [m] and (3,) [rad] along and about its axes."""
+    sp, sr = HALF * mm(sigma_position), HALF * deg(sigma_rotation)
     about = TEXTS.text("report.about", language, x=float(sr[0]), y=float(sr[1]), z=float(sr[2]))
-    return f"                ± {sp[0]:>11.3f} {sp[1]:>11.3f} {sp[2]:>11.3f} mm   {about}   {frame}"
+    return f"          95% ± {sp[0]:>13.3f} {sp[1]:>11.3f} {sp[2]:>11.3f} mm   {about}   {frame}"
 
 
 def remark_lines(
@@ -142,15 +146,15 @@ def base_text(base: BaseCalibration, language: str = FALLBACK) -> str:
         return TEXTS.text(f"report.{key}", language, **fields)
 
     lines = [f"{base.source.path.name}"]
-    heads = (("rows", 5), ("arc", 9), ("radius", 12), ("rms", 9), ("tilt", 12), ("centre", 13))
+    heads = (("rows", 5), ("arc", 9), ("radius", 12), ("rms", 9), ("tilt", 16), ("centre", 17))
     lines.append(f"  {padded(t('axis'), -6)}" + "".join(padded(t(key), width) for key, width in heads))
     lines += [
         f"  {a.arc.axis:<6}{int(a.used.sum()):>5}{deg(a.length):>9.1f}{mm(a.radius):>12.3f}{mm(a.rms):>9.4f}"
-        f"{deg(a.sigma_axis):>12.5f}{mm(a.sigma_centre):>13.4f}"
+        f"{HALF * deg(a.sigma_axis):>16.5f}{HALF * mm(a.sigma_centre):>17.4f}"
         for a in base.arcs
     ]
     lines.append(f"  T_tracker_base   {pose_lines(base.T_tracker_base)}")
-    lines.append(sigma_line(base.sigma_position, base.sigma_rotation, t("frame"), language))
+    lines.append(half_line(base.sigma_position, base.sigma_rotation, t("frame"), language))
     if base.maker is not None:
         whose = t("maker", robot=base.maker.robot)
         lines.append(f"  T_tracker_maker  {pose_lines(base.maker.T_tracker_maker)}   {whose}")
@@ -158,9 +162,9 @@ def base_text(base: BaseCalibration, language: str = FALLBACK) -> str:
     apart = t(
         "apart_beside" if beside else "apart",
         offset=mm(base.offset),
-        offset_sigma=mm(base.offset_sigma),
+        offset_half=HALF * mm(base.offset_sigma),
         angle=deg(base.angle),
-        angle_sigma=deg(base.angle_sigma),
+        angle_half=HALF * deg(base.angle_sigma),
         **beside,
     )
     lines.append(f"  {padded(t('axes'), -17)}{apart}")
@@ -172,7 +176,7 @@ def relation_text(relation: Relation, language: str = FALLBACK) -> str:
     lines = [TEXTS.text("report.two", language)]
     if relation.T_base1_base2 is not None:
         x, y, z = mm(relation.meeting)
-        miss = mm(relation.sigma_meeting)
+        miss = mm(relation.region_meeting)
         lines.append(f"  T_base1_base2    {pose_lines(relation.T_base1_base2)}")
         lines.append("  " + TEXTS.text("report.meeting", language, x=x, y=y, z=z, miss=miss))
     return "\n".join(lines + remark_lines(relation.warnings, relation.notes, language))

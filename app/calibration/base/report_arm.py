@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
+from app.calibration.base.report import HALF
 from app.calibration.base.sixaxis import ArmGeometry, Quantity
 from app.calibration.base.wording import TEXTS
+from app.kinematics import RobotModel
 from app.phrases import FALLBACK, padded
 from app.units import deg, mm
+
+#: Half widths of the 95% interval; by chance a row is further off its description 3 times in 1,000.
+_BEYOND = 1.5
 
 
 def _in(quantity: Quantity, value: float | None) -> float | None:
@@ -38,13 +44,22 @@ def arm_json(arm: ArmGeometry) -> dict[str, Any]:
     }
 
 
+def flange_lines(models: Sequence[RobotModel | None], language: str = FALLBACK) -> list[str]:
+    """One line an arm: from which link to which its description was taken."""
+    return [
+        TEXTS.text("arm.flange", language, robot=m.title, joints=m.joint_count, base=m.base, flange=m.flange)
+        for m in models
+        if m is not None
+    ]
+
+
 def arm_text(arm: ArmGeometry, language: str = FALLBACK) -> str:
-    """One row a dimension; what stands out by more than three sigma is marked."""
+    """One row a dimension with its 95% half width; what stands out by more than 1.5 of them is marked."""
 
     def t(key: str, **fields: Any) -> str:
         return TEXTS.text(f"arm.{key}", language, **fields)
 
-    heads = (("measured", 12), ("sigma", 10), ("described", 12), ("error", 10))
+    heads = (("measured", 12), ("half", 10), ("described", 12), ("error", 10))
     lines = [
         "  " + t("title"),
         f"  {'':<23}" + "".join(padded(t(key), width) for key, width in heads),
@@ -56,13 +71,11 @@ def arm_text(arm: ArmGeometry, language: str = FALLBACK) -> str:
         beside = (
             f"{'-':>12}{'-':>10}" if nominal is None or error is None else f"{nominal:>12.3f}{error:>+10.4f}"
         )
-        telling = q.error is not None and abs(q.error) > 3.0 * q.sigma
-        lines.append(
-            f"  {padded(t(q.name), -17)}{padded(pair, -8)}{_in(q, q.measured):>10.4f}{_in(q, q.sigma):>10.4f}{beside} "
-            f"{unit}{'  *' if telling else ''}"
-        )
+        telling = q.error is not None and abs(q.error) > _BEYOND * HALF * q.sigma
+        figures = f"{_in(q, q.measured):>10.4f}{HALF * (_in(q, q.sigma) or 0.0):>10.4f}{beside} {unit}"
+        lines.append(f"  {padded(t(q.name), -17)}{padded(pair, -8)}{figures}{'  *' if telling else ''}")
     lines += [
-        "  " + t("turning", axis=r.axis, slope=r.slope, sigma=r.sigma, scatter=deg(r.scatter))
+        "  " + t("turning", axis=r.axis, slope=r.slope, half=HALF * r.sigma, scatter=deg(r.scatter))
         for r in arm.turning
     ]
     if any(q.error is not None for q in arm.quantities):

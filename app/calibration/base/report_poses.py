@@ -10,7 +10,7 @@ import numpy as np
 
 from app.calibration.base.poserelation import PoseRelation
 from app.calibration.base.poses import PoseBase
-from app.calibration.base.report import FORMAT, matrix_mm, pose_lines, remark_lines, sigma_line, warnings_json
+from app.calibration.base.report import FORMAT, half_line, matrix_mm, pose_lines, remark_lines, warnings_json
 from app.calibration.base.wording import TEXTS
 from app.calibration.result import Warning_
 from app.phrases import FALLBACK, padded
@@ -23,6 +23,7 @@ def poses_json(
     bases: Sequence[PoseBase],
     warnings: Sequence[Warning_],
     relation: PoseRelation | None,
+    rows: Sequence[np.ndarray],
 ) -> dict[str, Any]:
     """The contract's object; `T_tracker_base` is the base link of the description."""
     frames = [matrix_mm(b.T_tracker_base) for b in bases]
@@ -44,8 +45,14 @@ def poses_json(
                 "sigma_mm": mm(np.sqrt(np.diag(b.covariance)[:3])).tolist(),
                 "sigma_deg": deg(np.sqrt(np.diag(b.covariance)[3:])).tolist(),
                 "reflector_mm": mm(b.reflector).tolist(),
+                "worst_mm": mm(float(b.heldout.max())),
+                "wrist_deg": deg(b.wrist),
+                "condition": b.fit.condition,
+                "outliers": [
+                    {"row": int(lines[i]), "off_mm": mm(off)} for i, off in zip(b.aside, b.off, strict=True)
+                ],
             }
-            for path, name, b in zip(files, robots, bases, strict=True)
+            for path, name, b, lines in zip(files, robots, bases, rows, strict=True)
         ],
     }
 
@@ -71,7 +78,7 @@ def poses_text(
         lines += [
             t("title", file=path.name, robot=name, count=b.count),
             f"  T_tracker_base   {pose_lines(b.T_tracker_base)}",
-            sigma_line(sigma[:3], sigma[3:], t("frame"), language),
+            half_line(sigma[:3], sigma[3:], t("frame"), language),
             f"  {padded(t('reflector'), -17)}{t('reflector_at', x=x, y=y, z=z)}",
             "  " + t("heldout", rms=mm(b.heldout_rms), worst=worst, fit=mm(b.fit.rms)),
         ]

@@ -28,10 +28,12 @@ from app.calibration.base.solve import solve_base
 from app.calibration.base.wording import remark
 from app.calibration.result import Warning_
 from app.errors import DegenerateGeometryError, InputError, MissingColumnError
-from app.kinematics import RobotModel, load_robot
+from app.kinematics import RobotModel
 from app.phrases import FALLBACK
 from app.recordings import Table, read_table
-from app.recordings.point_lists import KIND, with_unit
+from app.recordings.arm import names_robot, robot_for
+from app.recordings.options import ReadOptions
+from app.recordings.point_lists import KIND
 from app.units import from_mm
 
 
@@ -42,13 +44,14 @@ class ArcResult:
     bases: tuple[BaseCalibration, ...]
     arms: tuple[ArmGeometry | None, ...]
     relation: Relation | None
+    models: tuple[RobotModel | None, ...] = ()
 
     def to_json(self) -> dict[str, Any]:
         """teachframe.base/1."""
         out = report.base_json(self.bases, self.relation)
         for details, arm in zip(out["robots"], self.arms, strict=True):
             details["arm"] = None if arm is None else report_arm.arm_json(arm)
-        return out
+        return _with_flanges(out, self.models)
 
     def to_text(self, language: str = FALLBACK) -> str:
         """A page for a person."""
@@ -57,6 +60,7 @@ class ArcResult:
             parts.append(report.base_text(base, language))
             if arm is not None:
                 parts.append(report_arm.arm_text(arm, language))
+        parts += report_arm.flange_lines(self.models, language)
         return "\n".join(parts + ([report.relation_text(self.relation, language)] if self.relation else []))
 
 
@@ -69,16 +73,29 @@ class PoseResult:
     bases: tuple[PoseBase, ...]
     warnings: tuple[Warning_, ...]
     relation: PoseRelation | None
+    rows: tuple[np.ndarray, ...]
+    models: tuple[RobotModel, ...] = ()
 
     def to_json(self) -> dict[str, Any]:
         """teachframe.base/1 without arcs."""
-        return report_poses.poses_json(self.files, self.robots, self.bases, self.warnings, self.relation)
+        out = report_poses.poses_json(
+            self.files, self.robots, self.bases, self.warnings, self.relation, self.rows
+        )
+        return _with_flanges(out, self.models)
 
     def to_text(self, language: str = FALLBACK) -> str:
         """A page for a person."""
-        return report_poses.poses_text(
+        page = report_poses.poses_text(
             self.files, self.robots, self.bases, self.warnings, self.relation, language
         )
+        return "\n".join([page, *report_arm.flange_lines(self.models, language)])
+
+
+def _with_flanges(out: dict[str, Any], models: Sequence[RobotModel | None]) -> dict[str, Any]:
+    """The object with the link that was taken as each arm's flange."""
+    for details, model in zip(out["robots"], models, strict=True):
+        details["flange"] = None if model is None else model.flange
+    return out
 
 
 def run_base(
@@ -88,6 +105,7 @@ def run_base(
     patterns: Sequence[str] = (),
     meeting_mm: Sequence[float] | None = None,
     unit: str | None = None,
+    joints: Path | None = None,
 ) -> ArcResult | PoseResult:
     """Reads one or two files and finds the base(s).
 
@@ -96,26 +114,29 @@ def run_base(
         robot: description by name or path; None takes what each file says.
         patterns: AXIS=PATTERN for exports whose point names do not say the axis.
         meeting_mm: where both tools meet, in base 1 [mm].
-        unit: `mm` or `m`, for exports that do not say theirs.
+        unit: `mm`, `m` or `in`, for exports that do not say theirs.
+        joints: joint angles of the same poses, for lists of tracked points.
 
     Raises:
         InputError, DegenerateGeometryError: as the readers and the solver say, naming the file.
     """
-    tables = [read_table(path) for path in files]
-    if unit is not None:
-        tables = [with_unit(table, unit) for table in tables]
+    if meeting_mm is not None and not np.isfinite(meeting_mm).all():
+        raise InputError(f"found {tuple(meeting_mm)}", column="--at", expected="three finite numbers [mm]")
+    options = ReadOptions(unit=unit, joints=joints)
+    tables = [read_table(path, options) for path in files]
     recordings = [read_recording(t) if t.kind == "tracker" else None for t in tables]
     leads = [None if r is None else axis_of_rows(r.q) for r in recordings]
     if any(r is not None and lead is None for r, lead in zip(recordings, leads, strict=True)):
         return _from_poses(tables, recordings, robot)
-    bases, arms = [], []
+    bases, arms, models = [], [], []
     for table, recording, lead in zip(tables, recordings, leads, strict=True):
-        base, arm = _from_arcs(table, recording, lead, robot, patterns)
+        base, arm, model = _from_arcs(table, recording, lead, robot, patterns)
         bases.append(base)
+        models.append(model)
         arms.append(arm)
     meeting = None if meeting_mm is None else from_mm(np.array(meeting_mm, float))
     relation = relate(bases[0], bases[1], meeting) if len(bases) == 2 else None
-    return ArcResult(tuple(bases), tuple(arms), relation)
+    return ArcResult(tuple(bases), tuple(arms), relation, tuple(models))
 
 
 def _from_arcs(
@@ -124,9 +145,8 @@ def _from_arcs(
     lead: np.ndarray | None,
     robot: str | None,
     patterns: Sequence[str],
-) -> tuple[BaseCalibration, ArmGeometry | None]:
-    named = table.keys.get("robot")
-    model, trouble = description(None if named is None else str(named), robot, table.path)
+) -> tuple[BaseCalibration, ArmGeometry | None, RobotModel | None]:
+    model, trouble = description(table, robot)
     if recording is not None and lead is not None:
         arcs = arcs_from_recording(table, recording, lead, model)
         rest = rest_posture(recording.q)
@@ -140,7 +160,7 @@ def _from_arcs(
         raise error.in_file(table.path) from None
     if trouble is not None:
         base = replace(base, warnings=(*base.warnings, trouble))
-    return base, arm
+    return base, arm, model
 
 
 def _arm(
@@ -151,16 +171,14 @@ def _arm(
     return arm_geometry(row, model, rest) if len(row) > 2 and len(row) == len(arcs.arcs) else None
 
 
-def description(
-    named: str | None, asked: str | None, path: Path
-) -> tuple[RobotModel | None, Warning_ | None]:
+def description(table: Table, asked: str | None) -> tuple[RobotModel | None, Warning_ | None]:
     """The robot's description; one that a file names and that is not there is worth a warning, not a refusal."""
-    if asked is not None:
-        return load_robot(asked), None
-    if named is None:
+    if not names_robot(table, asked):
         return None, None
+    if asked is not None:
+        return robot_for(table, asked), None
     try:
-        return load_robot(named, relative_to=path.parent), None
+        return robot_for(table), None
     except InputError as error:
         return None, remark("robot", error=error)
 
@@ -168,7 +186,7 @@ def description(
 def _from_poses(
     tables: Sequence[Table], recordings: Sequence[Recording | None], asked: str | None
 ) -> PoseResult:
-    bases, models, warnings = [], [], []
+    bases, models, warnings, lines = [], [], [], []
     for table, recording in zip(tables, recordings, strict=True):
         if recording is None:
             raise InputError(
@@ -176,15 +194,14 @@ def _from_poses(
                 file=table.path,
                 expected="two files of one kind",
             )
-        name = asked or table.keys.get("robot")
-        if name is None:
+        if not names_robot(table, asked):
             raise MissingColumnError(
                 "several axes moved at a time, so the robot's description is needed",
                 file=table.path,
                 column="robot",
                 expected="a '# robot:' line or --robot",
             )
-        model = load_robot(str(name), relative_to=table.path.parent)
+        model = robot_for(table, asked)
         if model.joint_count != recording.q.shape[1]:
             raise MissingColumnError(
                 f"{recording.q.shape[1]} joint columns",
@@ -200,11 +217,18 @@ def _from_poses(
             raise error.in_file(table.path) from None
         bases.append(base)
         models.append(model)
-        warnings += pose_warnings(base)
+        warnings += pose_warnings(base, recording.rows)
+        lines.append(recording.rows)
     relation = None
     if len(bases) == 2:
         still = [float(np.mean(r.q[:, 0])) for r in recordings if r is not None]
         relation = relate_poses(bases[0], bases[1], (models[0], models[1]), (still[0], still[1]))
     return PoseResult(
-        tuple(t.path for t in tables), tuple(m.name for m in models), tuple(bases), tuple(warnings), relation
+        tuple(t.path for t in tables),
+        tuple(m.name for m in models),
+        tuple(bases),
+        tuple(warnings),
+        relation,
+        tuple(lines),
+        tuple(models),
     )

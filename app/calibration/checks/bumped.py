@@ -23,6 +23,8 @@ RARE = 0.01
 #: Changes below this are not worth a word, however certain [m].
 LEAST = from_mm(0.3)
 _ROUNDING = 1e-7
+#: A change whose share of its own columns is smaller looks like the tool or the spike itself.
+_UNTOLD = 1e-9
 
 
 @dataclass(frozen=True)
@@ -86,20 +88,40 @@ def _sse(matrix: np.ndarray, positions: np.ndarray) -> tuple[float, np.ndarray]:
 
 
 def _stories(base: np.ndarray, rotations: np.ndarray, positions: np.ndarray) -> list[_Story]:
-    """Every change of three numbers that these touches could tell."""
+    """Every change of three numbers that these touches could tell, in a time that grows with their number.
+
+    Three more columns c beside the base's take e^T S^-1 e from the sum of squares, with
+
+        e = sum c_i^T r_i        S = sum c_i^T c_i - B^T G^-1 B,   B = sum b_i^T c_i,   G = sum b_i^T b_i
+
+    over the touches that the change reaches, r being what the base leaves over. Sums from touch k on are running sums.
+    """
     n = len(positions)
-    found = []
-
-    def add(kind: str, touch: int, members: range | list[int], blocks: np.ndarray) -> None:
-        columns = np.zeros((n, 3, 3))
-        columns[members] = blocks[members]
-        sse, solution = _sse(np.concatenate([base, columns], axis=2), positions)
-        found.append(_Story(kind, touch, sse, float(np.linalg.norm(solution[6:]))))
-
+    before, solution = _sse(base, positions)
+    residual = -(np.einsum("nij,j->ni", base, solution) + positions)
+    inverse = np.linalg.pinv(np.einsum("nij,nik->jk", base, base), rcond=1e-14, hermitian=True)
     eye = np.broadcast_to(np.eye(3), (n, 3, 3))
-    for j in range(n):
-        add("missed", j, [j], eye)
-    for k in range(2, n - 1):  # two touches at least on either side: else it is one that missed
-        add("spike", k, range(k, n), eye)
-        add("tip", k, range(k, n), rotations)
+    later = np.arange(2, n - 1)  # two touches at least on either side: else it is one that missed
+    found: list[_Story] = []
+    for kind, blocks, places in (
+        ("missed", eye, np.arange(n)),
+        ("spike", eye, later),
+        ("tip", rotations, later),
+    ):
+        e = np.einsum("nij,ni->nj", blocks, residual)
+        B = np.einsum("nij,nik->njk", base, blocks)
+        D = np.einsum("nij,nik->njk", blocks, blocks)
+        if kind != "missed":
+            e, B, D = (np.cumsum(part[::-1], axis=0)[::-1] for part in (e, B, D))
+        e, B, D = e[places], B[places], D[places]
+        values, vectors = np.linalg.eigh(D - np.swapaxes(B, 1, 2) @ inverse @ B)
+        told = values > _UNTOLD * np.trace(D, axis1=1, axis2=2)[:, None]
+        along = np.einsum("nji,nj->ni", vectors, e)
+        change = np.where(told, along / np.where(told, values, 1.0), 0.0)
+        sse = np.maximum(before - np.sum(along * change, axis=1), 0.0)
+        size = np.linalg.norm(change, axis=1)
+        found += [
+            _Story(kind, k, left, moved)
+            for k, left, moved in zip(places.tolist(), sse.tolist(), size.tolist(), strict=True)
+        ]
     return found

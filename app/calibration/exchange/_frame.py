@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 import re
 from dataclasses import dataclass, field
-from typing import Protocol
 
 import numpy as np
 
@@ -13,8 +12,8 @@ from app.errors import FileFormatError
 from app.geometry import Pose
 from app.units import mm
 
-#: Nothing that holds one tool frame is larger [bytes].
-LARGEST = 1_000_000
+#: A controller's whole configuration or a long program is read to its end up to here [bytes].
+LARGEST = 10_000_000
 #: A number as all these formats write it; taken whole or not at all, else a row of digits is tried in every way.
 NUMBER = r"(?>[-+]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][-+]?\d+)?)"
 LONGEST_NAME = 24
@@ -41,30 +40,6 @@ class ToolFrame:
 
     def __post_init__(self):
         object.__setattr__(self, "name", safe_name(self.name))
-
-
-class ExchangeFormat(Protocol):
-    """A file under exchange/ with an object `FORMAT` of this shape is a format."""
-
-    key: str
-    title: str
-    suffix: str
-
-    def knows(self, text: str) -> bool:
-        """True where `text` looks like this format."""
-        ...
-
-    def write(self, frame: ToolFrame) -> str:
-        """The frame as text."""
-        ...
-
-    def read(self, text: str) -> ToolFrame:
-        """The first tool frame in `text`.
-
-        Raises:
-            FileFormatError: there is none, or its numbers cannot be used.
-        """
-        ...
 
 
 def safe_name(name: str) -> str:
@@ -133,8 +108,3 @@ def without_comments(text: str, mark: str) -> str:
         return found.group(0) if found.group(0).startswith('"') else " " * len(found.group(0))
 
     return re.sub(rf'"[^"\n]*"|{re.escape(mark)}[^\n]*', blank, text)
-
-
-def row_of(text: str, place: int) -> int:
-    """Line number of a place in the text, from 1."""
-    return text.count("\n", 0, place) + 1

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
+from functools import partial
 
 import numpy as np
 
@@ -15,6 +16,7 @@ from app.calibration.exchange._frame import (
     written,
     written_mm,
 )
+from app.calibration.exchange._tools import Reader, Tool, all_zero
 from app.errors import FileFormatError
 from app.geometry import rotation_from_quaternion
 from app.units import from_mm
@@ -23,13 +25,20 @@ _NEEDED = ("x_mm", "y_mm", "z_mm", "qw", "qx", "qy", "qz")
 _COLUMNS = ("name", *_NEEDED, "mass_kg", "com_x_mm", "com_y_mm", "com_z_mm")
 
 
-class CsvFrame:
+#: The header row stands within so many characters.
+_HEAD = 10_000
+
+
+class CsvFrame(Reader):
     key = "csv"
     title = "CSV"
     suffix = ".csv"
+    suffixes = ()
+    lacks = "it has no row"
+    absent = "one tool a row: " + ", ".join(_COLUMNS)
 
     def knows(self, text: str) -> bool:
-        return any(line.startswith("name,x_mm,") for line in text.splitlines()[:20])
+        return any(line.startswith("name,x_mm,") for line in text[:_HEAD].splitlines()[:20])
 
     def write(self, frame: ToolFrame) -> str:
         q = [written(v, 12) for v in frame.pose.quaternion]
@@ -37,7 +46,7 @@ class CsvFrame:
         row = [frame.name, *written_mm(frame.pose.position), *q, *load]
         return "# kind: tool\n" + ",".join(_COLUMNS) + "\n" + ",".join(row) + "\n"
 
-    def read(self, text: str) -> ToolFrame:
+    def tools(self, text: str) -> list[Tool]:
         lines = text.splitlines()
         start = next((i for i, line in enumerate(lines) if line.strip() and not line.startswith("#")), None)
         if start is None:
@@ -54,17 +63,27 @@ class CsvFrame:
             raise FileFormatError(
                 "no whole row below the header", row=start + 2, expected=f"{len(header)} cells"
             )
-        cells = dict(zip(header, rows[1], strict=True))
+        tools = []
+        for row, cells in enumerate(rows[1:], start + 2):
+            if len(cells) != len(header):
+                continue  # an empty line, or one cut short
+            named = dict(zip(header, cells, strict=True))
+            turned = [named[n] for n in (*_NEEDED[:3], *_NEEDED[4:])]
+            name = named.get("name", "").strip()
+            tools.append(Tool(name, 0, row, tuple(cells), all_zero(turned), partial(_frame, named, row)))
+        return tools
 
-        def value(name: str) -> float:
-            text = cells.get(name, "").strip()
-            return number(text, start + 2, name) if text or name in _NEEDED else 0.0
 
-        position = from_mm(np.array([value(n) for n in _NEEDED[:3]]))
-        q = unit_quaternion([value(n) for n in _NEEDED[3:]])
-        com = from_mm(np.array([value(f"com_{a}_mm") for a in "xyz"]))
-        name = cells.get("name", "").strip() or "tool"
-        return frame_of(name, rotation_from_quaternion(q), position, value("mass_kg"), com)
+def _frame(cells: dict[str, str], row: int) -> ToolFrame:
+    def value(name: str) -> float:
+        text = cells.get(name, "").strip()
+        return number(text, row, name) if text or name in _NEEDED else 0.0
+
+    position = from_mm(np.array([value(n) for n in _NEEDED[:3]]))
+    q = unit_quaternion([value(n) for n in _NEEDED[3:]])
+    com = from_mm(np.array([value(f"com_{a}_mm") for a in "xyz"]))
+    name = cells.get("name", "").strip() or "tool"
+    return frame_of(name, rotation_from_quaternion(q), position, value("mass_kg"), com)
 
 
 FORMAT = CsvFrame()

@@ -4,17 +4,20 @@ A controller loads an .LS, but never the listing of its own variables (sysframe.
 from numbers: the frame stands in the program as a position, goes to a position register and from there to UTOOL. It
 carries three decimals, as the controller itself shows and stores in text.
 
-Read are such programs (also those that fill the register number by number), and listings of $MNUTOOL; of several
-tools the first that is not the bare flange.
+Read are such programs (also those that fill the register number by number), and listings of $MNUTOOL. Positions of a
+motion program, position registers and user frames are never a tool.
 """
 
 from __future__ import annotations
 
+import bisect
 import re
+from functools import partial
 
 import numpy as np
 
-from app.calibration.exchange._frame import NUMBER, ToolFrame, frame_of, number, row_of
+from app.calibration.exchange._frame import NUMBER, ToolFrame, frame_of, number
+from app.calibration.exchange._tools import Reader, Rows, Tool, all_zero
 from app.errors import FileFormatError
 from app.geometry import convention
 from app.units import deg, from_deg, from_mm, mm
@@ -22,25 +25,37 @@ from app.units import deg, from_deg, from_mm, mm
 _PARTS = "XYZWPR"
 _GAP = r"\s*[:=]\s*(" + NUMBER + r")\s*(?:(?:mm|deg)\s*)?(?:,\s*)?"
 _FRAME = re.compile("".join(rf"\b{part}{_GAP}" for part in _PARTS))
-_LISTED = re.compile(r"\$MNUTOOL\b")
-_OTHER = re.compile(r"\[\*SYSTEM\*\]")
-_SET = re.compile(r"\bUTOOL\s*\[[^\]]*\]\s*=\s*PR\s*\[\s*(\d+)")
-_COPIED = r"\bPR\s*\[\s*{register}\s*(?::[^\]]*)?\]\s*=\s*P\s*\[\s*(\d+)"
-_PART = r"\bPR\s*\[\s*{register}\s*,\s*([1-6])\s*(?::[^\]]*)?\]\s*=\s*\(?\s*(" + NUMBER + r")"
-_NAME = re.compile(
-    r"\$TOOLNAME.*?'([^'\n]*)'|Comment:\s*'([^'\n]*)'|^[ \t]*(?:\d+[ \t]*)?:\s*!tool (\w+)", re.MULTILINE
+#: One step of a program: remarks, the tool that is set, a register that gets a position or one number.
+_STEP = re.compile(
+    r"(?P<remark>!tool[ \t]{1,9}(?P<name>\w{1,64})|(?://|!)[^\n]*)"
+    r"|\bUTOOL\s*\[\s*(?P<tool>\d{1,4})[^\]\n]{0,40}\]\s*=\s*PR\s*\[\s*(?P<set>\d{1,5})"
+    r"|\bPR\s*\[\s*(?P<to>\d{1,5})\s*(?::[^\]\n]{0,40})?\]\s*=\s*P\s*\[\s*(?P<position>\d{1,5})"
+    r"|\bPR\s*\[\s*(?P<register>\d{1,5})\s*,\s*(?P<part>[1-6])\s*(?::[^\]\n]{0,40})?\]\s*=\s*(?:\(\s*)?(?P<value>"
+    + NUMBER
+    + ")"
 )
+_POSITION = re.compile(r"^[ \t]{0,40}P\[\s*(\d{1,5})\s*(?::[^\]\n]{0,40})?\]\s*\{", re.MULTILINE)
+_SECTION = re.compile(r"\[\*\w{1,32}\*\]\s{0,9}(\$?\w{1,32})")
+_ENTRY = re.compile(r"\[\s*1\s*,\s*(\d{1,4})\s*\]\s*=")
+_COMMENT = re.compile(r"'([^'\n]{1,40})'")
+_PROGRAM = re.compile(r"\bUTOOL\s*\[[^\]\n]{0,40}\]\s*=")
+_WHOSE = re.compile(r"^[ \t]{0,40}/PROG\b|\[\*\w{1,32}\*\]", re.MULTILINE)
+#: A position with its configuration stands within so many characters.
+_BLOCK = 1000
 #: The last register of most controllers; what stood in it is lost, the program says so.
 _REGISTER = 100
 
 
-class FanucUtool:
+class FanucUtool(Reader):
     key = "fanuc_utool"
     title = "FANUC UTOOL"
     suffix = ".ls"
+    suffixes = (".ls", ".va", ".tp")
+    lacks = "it sets no UTOOL"
+    absent = "a program that sets UTOOL[n]=PR[…], or a listing of $MNUTOOL (X: … Y: … Z: … W: … P: … R: …)"
 
     def knows(self, text: str) -> bool:
-        return bool(_SET.search(text)) or bool(_LISTED.search(text) or _FRAME.search(text))
+        return bool(_WHOSE.search(text) or _PROGRAM.search(text) or _FRAME.search(text))
 
     def write(self, frame: ToolFrame) -> str:
         x, y, z = mm(frame.pose.position)
@@ -72,54 +87,86 @@ class FanucUtool:
             "};\n/END\n"
         )
 
-    def read(self, text: str) -> ToolFrame:
-        values, row = self._program(text) if _SET.search(text) else self._listing(text)
-        named = _NAME.search(text)
-        name = next((g for g in named.groups() if g), "tool") if named else "tool"
-        rotation = convention("XYZ").to_rotation(from_deg(values[3:]))
-        try:
-            return frame_of(name, rotation, from_mm(values[:3]))
-        except FileFormatError as error:
-            raise FileFormatError(error.problem, row=row, column="X … R", expected=error.expected) from None
+    def tools(self, text: str) -> list[Tool]:
+        return _program(text) if _PROGRAM.search(text) else _listing(text)
 
-    def _program(self, text: str) -> tuple[np.ndarray, int]:
-        start = _SET.search(text)
-        assert start is not None
-        register, row = start.group(1), row_of(text, start.start())
-        copied = re.search(_COPIED.format(register=register), text[: start.start()])
-        if copied:
-            block = re.search(rf"\bP\[\s*{copied.group(1)}\s*(?::[^\]]*)?\]\s*\{{(.*?)\}}", text, re.DOTALL)
-            found = _FRAME.search(block.group(1)) if block else None
-            if found and block:
-                return _numbers(found.groups(), row_of(text, block.start())), row
-        parts = dict(re.findall(_PART.format(register=register), text[: start.start()]))
-        if len(parts) == len(_PARTS):
-            return _numbers([parts[str(k + 1)] for k in range(len(_PARTS))], row), row
+
+def _program(text: str) -> list[Tool]:
+    """Tools in the order in which the program sets them, each with what its register held by then."""
+    rows = Rows(text)
+    positions = {
+        found.group(1): _FRAME.search(text, found.end(), found.end() + _BLOCK)
+        for found in _POSITION.finditer(text)
+    }
+    registers: dict[str, dict[str, str]] = {}
+    tools, name = [], ""
+    for step in _STEP.finditer(text):
+        part = step.groupdict()
+        if part["remark"]:
+            name = part["name"] or name
+        elif part["position"]:
+            held = positions.get(part["position"])
+            registers[part["to"]] = {} if held is None else dict(zip("123456", held.groups(), strict=True))
+        elif part["register"]:
+            registers[part["register"]] = {**registers.get(part["register"], {}), part["part"]: part["value"]}
+        else:
+            numbers = registers.get(part["set"], {})
+            written, row = tuple(numbers.get(k, "") for k in "123456"), rows(step.start())
+            bare = len(numbers) == len(_PARTS) and all_zero(written)
+            make = partial(_frame, name or "tool", row, written, part["set"])
+            tools.append(Tool(name, int(part["tool"]), row, written, bare, make))
+            name = ""
+    return tools
+
+
+def _listing(text: str) -> list[Tool]:
+    """Tools of a listing of variables; one without any headline holds tools alone."""
+    headlines = [*_SECTION.finditer(text)]
+    ends = [*(found.start() for found in headlines[1:]), len(text)]
+    parts = (
+        [
+            (found.end(), end)
+            for found, end in zip(headlines, ends, strict=True)
+            if found.group(1).upper() == "$MNUTOOL"
+        ]
+        if headlines
+        else ([] if _WHOSE.search(text) else [(0, len(text))])
+    )
+    rows = Rows(text)
+    tools = []
+    for start, end in parts:
+        entries = [*_ENTRY.finditer(text, start, end)]
+        places = [found.start() for found in entries]
+        before = start
+        for found in _FRAME.finditer(text, start, end):
+            at = bisect.bisect_right(places, found.start()) - 1
+            said = _COMMENT.search(text, max(before, places[at] if at >= 0 else before), found.start())
+            name, row = said.group(1).strip() if said else "", rows(found.start())
+            number_ = int(entries[at].group(1)) if at >= 0 else 0
+            written = found.groups()
+            make = partial(_frame, name or "tool", row, written, "")
+            tools.append(Tool(name, number_, row, written, all_zero(written), make))
+            before = found.end()
+    return tools
+
+
+def _frame(name: str, row: int, written: tuple[str, ...], register: str) -> ToolFrame:
+    if not all(written):
         raise FileFormatError(
             f"PR[{register}] is not filled with a whole frame",
             row=row,
             column="UTOOL",
             expected="P[…] with X, Y, Z, W, P, R, or PR[…,1] to PR[…,6]",
         )
-
-    def _listing(self, text: str) -> tuple[np.ndarray, int]:
-        listed = _LISTED.search(text)
-        start = listed.end() if listed else 0
-        following = _OTHER.search(text, start) if listed else None
-        end = following.start() if following else len(text)
-        frames = list(_FRAME.finditer(text, start, end))
-        if not frames:
-            raise FileFormatError("no tool frame", row=1, expected="X: … Y: … Z: … W: … P: … R: …")
-        values = [_numbers(f.groups(), row_of(text, f.start())) for f in frames]
-        first = next((k for k, v in enumerate(values) if np.any(v)), 0)
-        return values[first], row_of(text, frames[first].start())
+    values = np.array([number(text, row) for text in written])
+    rotation = convention("XYZ").to_rotation(from_deg(values[3:]))
+    try:
+        return frame_of(name, rotation, from_mm(values[:3]))
+    except FileFormatError as error:
+        raise FileFormatError(error.problem, row=row, column="X … R", expected=error.expected) from None
 
 
 FORMAT = FanucUtool()
-
-
-def _numbers(texts: list[str] | tuple[str, ...], row: int) -> np.ndarray:
-    return np.array([number(text, row) for text in texts])
 
 
 def _three(value: float) -> str:

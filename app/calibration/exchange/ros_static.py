@@ -7,24 +7,30 @@ line, also one that goes on after a backslash, or as `args` of a node in a launc
 from __future__ import annotations
 
 import re
+from functools import partial
 
 import numpy as np
 
-from app.calibration.exchange._frame import ToolFrame, frame_of, number, row_of, unit_quaternion, written
+from app.calibration.exchange._frame import ToolFrame, frame_of, number, unit_quaternion, written
+from app.calibration.exchange._tools import Reader, Rows, Tool, all_zero
 from app.errors import FileFormatError
 from app.geometry import convention, rotation_from_quaternion
 
 _COMMAND = re.compile(
-    r"""static_transform_publisher["']?(?:[ \t]+((?!name\s*=|args\s*=)[^\n>]*)|[^>]*?\bargs\s*=\s*["']([^"']*)["'])"""
+    r"""static_transform_publisher["']?(?:[ \t]{1,200}(?!name\s{0,9}=|args\s{0,9}=)([^\n>]{0,2000})|"""
+    r"""[^>]{0,500}?\bargs\s{0,9}=\s{0,9}["']([^"']{0,2000})["'])"""
 )
-_NAMED = re.compile(r"--([a-z-]+)[ =]+(\S+)")
+_NAMED = re.compile(r"(?<!\S)--([a-z-]{1,40})[ =]{1,40}(\S{1,200})")
 _EXPECTED = "static_transform_publisher --x … --qw … --frame-id flange --child-frame-id tool"
 
 
-class RosStatic:
+class RosStatic(Reader):
     key = "ros_static"
     title = "ROS static transform"
     suffix = ".sh"
+    suffixes = (".sh", ".launch")
+    lacks = "it publishes no static transform"
+    absent = _EXPECTED
 
     def knows(self, text: str) -> bool:
         return _COMMAND.search(_joined(text)) is not None
@@ -39,16 +45,42 @@ class RosStatic:
             f"--frame-id flange --child-frame-id {frame.name}\n"
         )
 
-    def read(self, text: str) -> ToolFrame:
-        found = _COMMAND.search(_joined(text))
-        if not found:
-            raise FileFormatError("no static transform", row=1, expected=_EXPECTED)
-        row = row_of(text, found.start())
-        arguments = found.group(1) or found.group(2) or ""
-        named = dict(_NAMED.findall(arguments))
-        if named:
-            return _by_name(named, row)
-        return _by_place(arguments.split(), row)
+    def tools(self, text: str) -> list[Tool]:
+        rows = Rows(text)
+        tools = []
+        for found in _COMMAND.finditer(_joined(text)):
+            row = rows(found.start())
+            arguments = (found.group(1) or found.group(2) or "").strip()
+            named = dict(_NAMED.findall(arguments))
+            words = tuple(arguments.split())
+            make = partial(_by_name, named, row) if named else partial(_by_place, words, row)
+            tools.append(Tool(_child(named, words), 0, row, words, _bare(named, words), make))
+        return tools
+
+
+def _child(named: dict[str, str], words: tuple[str, ...]) -> str:
+    """The tool's frame, behind all numbers and the flange's frame."""
+    if named:
+        return named.get("child-frame-id", "")
+    names = [word for word in words if not _is_number(word)]
+    return names[1] if len(names) > 1 else ""
+
+
+def _bare(named: dict[str, str], words: tuple[str, ...]) -> bool:
+    if named:
+        return all_zero(
+            named.get(key, "0") for key in ("x", "y", "z", "qx", "qy", "qz", "roll", "pitch", "yaw")
+        )
+    numbers = [word for word in words[:7] if _is_number(word)]
+    return all_zero(numbers[:6])
+
+
+def _is_number(word: str) -> bool:
+    try:
+        float(word)
+    except ValueError:
+        return False
+    return True
 
 
 def _joined(text: str) -> str:
@@ -69,7 +101,7 @@ def _by_name(named: dict[str, str], row: int) -> ToolFrame:
     return frame_of(named.get("child-frame-id", "tool"), rotation, position)
 
 
-def _by_place(words: list[str], row: int) -> ToolFrame:
+def _by_place(words: tuple[str, ...], row: int) -> ToolFrame:
     values: list[float] = []
     for word in words[:7]:
         try:

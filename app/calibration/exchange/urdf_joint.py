@@ -11,16 +11,18 @@ import operator
 import re
 import xml.etree.ElementTree as ET
 from collections.abc import Callable
+from functools import partial
 
 import numpy as np
 
 from app.calibration.exchange._frame import ToolFrame, frame_of, number, written
+from app.calibration.exchange._tools import Reader, Tool, all_zero
 from app.errors import FileFormatError
 from app.geometry import convention
 
 _SHAPE = '<joint type="fixed"> with <parent>, <child> and <origin xyz rpy>'
 
-_WORD = re.compile(r"\$\{[^}]*\}|\S+")
+_WORD = re.compile(r"\$\{[^}]{0,200}\}|\S+")
 _SIGNS: dict[type, Callable[[float], float]] = {ast.USub: operator.neg, ast.UAdd: operator.pos}
 _OPERATIONS: dict[type, Callable[[float, float], float]] = {
     ast.Add: operator.add,
@@ -30,10 +32,13 @@ _OPERATIONS: dict[type, Callable[[float, float], float]] = {
 }
 
 
-class UrdfJoint:
+class UrdfJoint(Reader):
     key = "urdf_joint"
     title = "URDF/xacro fixed joint"
     suffix = ".urdf.xacro"
+    suffixes = (".urdf", ".xacro")
+    lacks = "it has no fixed joint"
+    absent = _SHAPE
 
     def knows(self, text: str) -> bool:
         return "<joint" in text and "fixed" in text
@@ -53,7 +58,7 @@ class UrdfJoint:
             "</robot>\n"
         )
 
-    def read(self, text: str) -> ToolFrame:
+    def tools(self, text: str) -> list[Tool]:
         if "<!ENTITY" in text or "<!DOCTYPE" in text:
             raise FileFormatError("declares entities", row=1, expected=_SHAPE)
         try:
@@ -63,12 +68,20 @@ class UrdfJoint:
         joints = [j for j in root.iter("joint") if j.get("type") == "fixed" and j.find("origin") is not None]
         if not joints:
             raise FileFormatError("no fixed joint with an origin", row=1, expected=_SHAPE)
-        joint = joints[-1]  # the last one in a chain is the tool's
-        origin, child = joint.find("origin"), joint.find("child")
-        assert origin is not None
-        xyz, rpy = _three(origin, "xyz"), _three(origin, "rpy")
-        name = child.get("link", "tool") if child is not None else "tool"
-        return frame_of(name, convention("XYZ").to_rotation(rpy), xyz)
+        tools = []
+        for joint in joints:
+            origin, child = joint.find("origin"), joint.find("child")
+            assert origin is not None
+            name = child.get("link", "tool") if child is not None else "tool"
+            words = (origin.get("xyz", "0 0 0"), origin.get("rpy", "0 0 0"))
+            bare = "${" not in "".join(words) and all_zero(words)
+            tools.append(Tool(name, 0, 1, words, bare, partial(_frame, name, origin)))
+        return tools
+
+
+def _frame(name: str, origin: ET.Element) -> ToolFrame:
+    xyz, rpy = _three(origin, "xyz"), _three(origin, "rpy")
+    return frame_of(name, convention("XYZ").to_rotation(rpy), xyz)
 
 
 def _three(element: ET.Element, key: str) -> np.ndarray:

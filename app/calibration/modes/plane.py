@@ -41,7 +41,10 @@ class Plane:
 
     def steps(self, touches: int = 9) -> tuple[Step, ...]:
         count = min(max(touches, self.least_touches), self.most_touches)
-        text = "Tilt the tool another way, put its tip on the plate, anywhere, and record."
+        text = (
+            "Tilt the tool another way, nearly upright and far over in turn, put its tip on the plate, anywhere, "
+            "and record."
+        )
         return tuple(Step(f"plane{i}", "plane", f"Plate {i}", text, "plane") for i in range(1, count + 1))
 
     def solve(

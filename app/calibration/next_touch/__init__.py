@@ -7,7 +7,7 @@ proposal.py     the next touch as a pose that the arm reaches, within limits and
 
 proposal = propose(rotations, tool=…, spike=…, robot=robot, collides=world.check)
 proposal.q              ghost arm
-proposal.now, .after    predicted one-sigma length of the tool point's error [m]
+proposal.now, .after    predicted half length of the tool point's 95% region [m]
 """
 
 from app.calibration.next_touch.candidates import TouchLimits

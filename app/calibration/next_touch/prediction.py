@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from app.estimation import reach
 from app.units import from_mm
 
 #: One-sigma noise of a touch on one axis before any is known [m]: a careful hand.
@@ -35,8 +36,14 @@ def predicted_covariance(rotations: np.ndarray, noise: float = USUAL_NOISE) -> n
 
 
 def predicted_error(rotations: np.ndarray, noise: float = USUAL_NOISE) -> float:
-    """Root mean square length of the tool point's error [m]; inf while it is not determined."""
-    return float(np.sqrt(np.trace(predicted_covariance(rotations, noise))))
+    """Longest half axis of the region that holds the tool point in 95 of 100 cases [m]; inf while it is not determined.
+
+    The same figure as a result's (quality/region.py), with the noise known beforehand.
+    """
+    covariance = predicted_covariance(rotations, noise)
+    if not np.isfinite(covariance).all():
+        return float("inf")
+    return reach(0) * float(np.sqrt(np.linalg.eigvalsh(covariance)[-1]))
 
 
 def inverse_trace(matrices: np.ndarray) -> np.ndarray:

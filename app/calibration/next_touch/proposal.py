@@ -28,7 +28,7 @@ class Proposal:
         T_base_flange: the flange that brings the tip to the spike.
         q: (n,) joint positions that reach it, for the ghost arm; None where no robot was given.
         following: (m, 3, 3) flange rotations planned after it.
-        now: predicted length of the tool point's error with the touches made [m]; inf while undetermined.
+        now: predicted half length of the 95% region with the touches made [m]; inf while undetermined.
         after: with this touch as well [m].
         at_end: with all planned touches [m].
         sigma_after: (3,) along the flange's axes after this touch [m].

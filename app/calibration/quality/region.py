@@ -13,11 +13,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy import special
 
 from app.calibration.result import ToolCalibration
-
-LEVEL = 0.95
+from app.estimation import LEVEL, reach
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,13 +38,6 @@ class Ellipsoid:
         """True where `point` (3,) [m] lies inside."""
         local = self.directions.T @ (np.asarray(point, float) - self.centre)
         return bool(np.sum((local / self.semi_axes) ** 2) <= 1.0)
-
-
-def reach(dof: int, level: float = LEVEL, dimensions: int = 3) -> float:
-    """How many standard errors the region reaches; dof 0: the noise is known beforehand."""
-    if dof > 0:
-        return float(np.sqrt(dimensions * special.fdtri(dimensions, dof, level)))
-    return float(np.sqrt(special.chdtri(dimensions, 1.0 - level)))
 
 
 def ellipsoid(result: ToolCalibration, level: float = LEVEL) -> Ellipsoid:

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Literal
 
 import tyro
+
+from app.cli.arguments import RobotArguments
 
 
 @dataclass
@@ -24,14 +26,17 @@ class Command:
     file2: tyro.conf.Positional[Path | None] = None
     """Arcs of the second robot, recorded with the tracker in the same place."""
 
-    robot: Annotated[str | None, tyro.conf.arg(metavar="NAME|FILE.urdf")] = None
-    """The robot's description; default what the file says. Gives the step to the maker's base frame."""
+    arm: tyro.conf.OmitArgPrefixes[RobotArguments] = field(default_factory=RobotArguments)
+    """The robot: its description gives the step to the maker's base frame."""
 
     axis: tuple[str, ...] = ()
     """For exports whose names do not say it: AXIS=PATTERN, such as 1=ROB1_J1_* 2=ROB1_J2_*."""
 
-    unit: Literal["mm", "m"] | None = None
+    unit: Literal["mm", "m", "in"] | None = None
     """Unit of an export that does not say its own."""
+
+    joints: Path | None = None
+    """For a list of tracked points: the joint angles of the same poses, row by row."""
 
     at: tuple[float, float, float] | None = None
     """Where both tools meet, mm in base 1; default half-way between the work spaces."""
@@ -49,10 +54,11 @@ class Command:
 
         result = run_base(
             [self.file] if self.file2 is None else [self.file, self.file2],
-            robot=self.robot,
+            robot=self.arm.address,
             patterns=self.axis,
             meeting_mm=self.at,
             unit=self.unit,
+            joints=self.joints,
         )
         print(msgspec.json.encode(result.to_json()).decode() if self.json else result.to_text(self.language))
         return 0

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import sys
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
 
 import tyro
 
+from app.cli.arguments import ReadingArguments, RobotArguments
 from app.errors import InputError
 
 if TYPE_CHECKING:
@@ -16,6 +17,7 @@ if TYPE_CHECKING:
 
     from app.diagnosis.batch import Outcome
     from app.diagnosis.model import SavedModel
+    from app.kinematics import RobotModel
 
 
 @dataclass
@@ -29,8 +31,11 @@ class Command:
     files: Annotated[tuple[Path, ...], tyro.conf.Positional, tyro.conf.arg(metavar="FILE...")]
     """Recordings."""
 
-    robot: Annotated[str | None, tyro.conf.arg(metavar="NAME|FILE.urdf")] = None
-    """The robot's description; without it the one the file's header names."""
+    arm: tyro.conf.OmitArgPrefixes[RobotArguments] = field(default_factory=RobotArguments)
+    """The robot."""
+
+    reading: tyro.conf.OmitArgPrefixes[ReadingArguments] = field(default_factory=ReadingArguments)
+    """How to read files that leave something open."""
 
     reference: Annotated[Path | None, tyro.conf.arg(metavar="FILE")] = None
     """A motion recording of the same arm in a known good state: what changed since?"""
@@ -101,28 +106,35 @@ class Command:
 
         if self.together and len(self.files) > 1:
             found = diagnose_together(
-                self.files, robot=self.robot, model=model, progress=progress.update, seed=self.seed
+                self.files,
+                robot=self.arm.address,
+                model=model,
+                progress=progress.update,
+                seed=self.seed,
+                options=self.reading.options,
             )
             yield Outcome(str(self.files[0]), found)
             return
         if len(self.files) == 1:
             found = diagnose_file(
                 self.files[0],
-                robot=self.robot,
+                robot=self.arm.address,
                 reference=self.reference,
                 model=model,
                 progress=progress.update,
                 seed=self.seed,
+                options=self.reading.options,
             )
             yield Outcome(str(self.files[0]), found)
             return
         outcomes = diagnose_many(
             self.files,
-            robot=self.robot,
+            robot=self.arm.address,
             reference=self.reference,
             model=model,
             evidence=self.report is not None,
             seed=self.seed,
+            options=self.reading.options,
         )
         for done, outcome in enumerate(outcomes, 1):
             yield outcome
@@ -134,25 +146,27 @@ class Command:
         if self.json:
             import msgspec
 
-            sys.stdout.write(msgspec.json.encode(diagnosis.to_json()).decode() + "\n")
+            told = {**diagnosis.to_json(), "flange": self._robot(outcome.file).flange}
+            sys.stdout.write(msgspec.json.encode(told).decode() + "\n")
         else:
             from app.diagnosis.report import as_text
 
-            slides = self._slides(outcome.file) if diagnosis.next_poses else ()
+            arm = self._robot(outcome.file)
+            slides = tuple(joint.prismatic for joint in arm.joints)
             sys.stdout.write(
-                ("" if first else "\n" + "─" * 100 + "\n\n") + as_text(diagnosis, prismatic=slides)
+                ("" if first else "\n" + "─" * 100 + "\n\n")
+                + as_text(diagnosis, prismatic=slides, flange=arm.flange)
             )
         sys.stdout.flush()
 
-    def _slides(self, file: str) -> tuple[bool, ...]:
-        """Which joints slide, for the unit of a proposed pose."""
-        return tuple(joint.prismatic for joint in self._robot(file).joints)
-
-    def _robot(self, file: str):
-        from app.diagnosis.dispatch import robot_for
+    def _robot(self, file: str) -> RobotModel:
+        from app.kinematics import load_robot
         from app.recordings import read_table
+        from app.recordings.arm import robot_for
 
-        return robot_for(read_table(file), self.robot)
+        if self.arm.robot is not None:
+            return load_robot(str(self.arm.address))
+        return robot_for(read_table(file, self.reading.options), self.arm.address)
 
     def _sources(self, kept: list) -> list[str]:
         """The file of each diagnosis; of several taken together the first."""

@@ -31,8 +31,14 @@ class Command:
     out: Path | None = None
     """Folder for the scorecard; proof_FAMILY_SEED unless given."""
 
-    workers: int | None = None
-    """Processes; all cores unless given."""
+    processes: int | None = None
+    """How many side by side, each on one core; all cores unless given."""
+
+    strata: tuple[str, ...] = ()
+    """Only these kinds of cases, such as arm_tracker; all of them unless given."""
+
+    controls: bool = True
+    """Ask the negative controls too."""
 
     def run(self) -> int:
         import json
@@ -44,9 +50,9 @@ class Command:
         from app.proof.run import as_json, prove
         from app.proof.table import table
 
-        if (self.seed is not None and self.seed < 0) or (self.workers is not None and self.workers < 1):
+        if (self.seed is not None and self.seed < 0) or (self.processes is not None and self.processes < 1):
             raise InputError(
-                "a seed or number of workers that cannot be", expected="--seed from 0, --workers from 1"
+                "a seed or number of processes that cannot be", expected="--seed from 0, --processes from 1"
             )
         seed = self.seed if self.seed is not None else secrets.randbelow(2**31)
         out = self.out or Path(f"proof_{self.family}_{seed}")
@@ -63,7 +69,17 @@ class Command:
         def tell(text: str) -> None:
             print(text, flush=True)
 
-        proof = prove(self.family, self.cases, seed, out, tell=tell, say=say, workers=self.workers)
+        proof = prove(
+            self.family,
+            self.cases,
+            seed,
+            out,
+            tell=tell,
+            say=say,
+            processes=self.processes,
+            only=self.strata,
+            with_controls=self.controls,
+        )
         (out / "scorecard.json").write_text(json.dumps(as_json(proof), indent=1) + "\n", encoding="utf-8")
         (out / "scorecard.html").write_text(page(proof), encoding="utf-8")
         print(table(proof))

@@ -24,16 +24,27 @@ class Command:
     """The data folder the pendant was started with; without it the user's own."""
     database: str | None = None
     """URL of the database the pendant was started with; without it the one in the data folder."""
+    robot: str | None = None
+    """Stands for an arm of the session that is neither shipped nor kept here: its description."""
     json: bool = False
     """The object teachframe.tool/1 instead of the page."""
 
     def run(self) -> int:
         from app.errors import InputError
+        from app.kinematics import load_robot
         from app.session import replay
+        from app.session.actions import ChooseRobot
         from app.session.report import report_json, report_text
+        from app.session.state import grant_robot, known_robot
         from app.session.store import find_recorded
 
         recorded = find_recorded(self.session, self.data, self.database)
+        description = self.robot
+        if description is not None:
+            arms = {e.action.robot for e in recorded.entries if isinstance(e.action, ChooseRobot)}
+            for name in arms:
+                if not known_robot(name):
+                    grant_robot(name, lambda _: load_robot(description))
         state = replay(recorded)
         if recorded.torn:
             print(

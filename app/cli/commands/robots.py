@@ -15,7 +15,7 @@ class Command:
     def run(self) -> int:
         import msgspec
 
-        from app.kinematics import load_robot, robot_names
+        from app.kinematics import load_robot, makers_tables, robot_names
 
         rows = []
         for name in robot_names():
@@ -44,4 +44,8 @@ class Command:
                 f"{row['name']:<18}{row['joints']:>7}{row['reach_m']:>9.3f}{load:>9}  {masses:<6}  "
                 f"{row['title']} · {row['source']}"
             )
+        print(
+            f"\n{', '.join(makers_tables())}: by the maker's table of axes alone, without masses and shapes;"
+            "\n--calibration FILE gives one arm its own axes"
+        )
         return 0

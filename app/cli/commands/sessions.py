@@ -30,14 +30,17 @@ class Command:
     """One JSON object a session instead of the table."""
 
     def run(self) -> int:
-        from app.errors import FileFormatError, InputError
+        from app.errors import InputError
+        from app.files import write_bytes
         from app.session import Store, replay
+        from app.session.arms import Arms
         from app.session.journal import encode_journal, read_journal
 
         if self.out is not None and self.export is None:
             raise InputError("nothing to write", column="--out", expected="--export NAME with it")
         store = Store(self.data, self.database)
         if self.take is not None:
+            Arms(store.database).grant()
             recorded = read_journal(self.take)
             replay(recorded)  # what cannot be replayed is not taken in
             print(store.take(recorded))
@@ -50,17 +53,14 @@ class Command:
         if self.out is None:
             sys.stdout.write(content.decode())
             return 0
-        try:
-            self.out.write_bytes(content)
-        except OSError as error:
-            raise FileFormatError(f"cannot be written ({error.strerror})", file=self.out) from None
+        write_bytes(self.out, content)
         print(f"{self.out}: {len(recorded.entries)} actions", file=sys.stderr)
         return 0
 
     def _list(self, store) -> None:
-        from datetime import datetime
-
         import msgspec
+
+        from app.session.report import moment
 
         listed = store.list()
         if self.json:
@@ -72,7 +72,5 @@ class Command:
             return
         print(f"{'session':<{NAME_SHOWN}}  {'began':<16}  {'last action':<16}  {'actions':>7}  robot")
         for session in listed:
-            began, last = (
-                datetime.fromtimestamp(t).strftime("%Y-%m-%d %H:%M") for t in (session.created, session.last)
-            )
+            began, last = moment(session.created), moment(session.last)
             print(f"{session.name[:NAME_SHOWN]}  {began}  {last}  {session.actions:>7}  {session.robot}")

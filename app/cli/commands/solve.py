@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import sys
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from datetime import datetime
 from pathlib import Path
 from typing import Annotated, Literal
 
 import tyro
+
+from app.cli.arguments import RobotArguments
 
 
 @dataclass
@@ -33,17 +35,22 @@ class Command:
     language: Literal["en", "zh"] = "en"
     """Of the page and the report; JSON stays English."""
 
+    arm: tyro.conf.OmitArgPrefixes[RobotArguments] = field(default_factory=RobotArguments)
+    """The robot, for joints; without it the one the file names."""
+
     report: Path | None = None
     """Writes a one-page report (HTML, prints well) of the one file given."""
 
     def run(self) -> int:
         import msgspec
 
+        from app.calibration.as_json import solved_json, tool_json
         from app.calibration.report import report
         from app.calibration.sockets import sockets_page, solve_sockets
-        from app.calibration.solving import solve_file, to_json
+        from app.calibration.solving import solve_file
         from app.calibration.text import page
         from app.errors import InputError, TeachframeError
+        from app.files import write_text
         from app.recordings import read_table
 
         if not self.files:
@@ -54,38 +61,33 @@ class Command:
         for number, path in enumerate(self.files):
             try:
                 if self.mode is None and self.report is None and (table := read_table(path)).kind == "touch":
-                    found = solve_sockets(table)
+                    found = solve_sockets(table, self.arm.address)
                     text = (
-                        msgspec.json.encode(to_json(found.result)).decode()
+                        msgspec.json.encode({**tool_json(found.result), "flange": found.flange}).decode()
                         if self.json
                         else sockets_page(found)
                     )
                     print(text, flush=True)
                     continue
                 solved = solve_file(
-                    path, method=self.method, orientation=self.orientation, mode_key=self.mode
+                    path,
+                    method=self.method,
+                    orientation=self.orientation,
+                    mode_key=self.mode,
+                    robot=self.arm.address,
                 )
             except TeachframeError as error:
                 print(f"teachframe solve: {error}", file=sys.stderr, flush=True)
                 code = 2
                 continue
             if self.report is not None:
-                _write(
+                write_text(
                     self.report,
                     report(solved, made=datetime.now().strftime("%Y-%m-%d %H:%M"), language=self.language),
                 )
             if self.json:
-                print(msgspec.json.encode(to_json(solved.result)).decode(), flush=True)
+                print(msgspec.json.encode(solved_json(solved)).decode(), flush=True)
             else:
                 text = page(solved, self.language)
                 print(("\n" + "=" * 100 + "\n\n" if number else "") + text, flush=True)
         return code
-
-
-def _write(path: Path, text: str) -> None:
-    from app.errors import FileFormatError
-
-    try:
-        path.write_text(text, encoding="utf-8")
-    except OSError as error:
-        raise FileFormatError(f"cannot be written ({error.strerror})", file=path) from None

@@ -4,26 +4,29 @@ from __future__ import annotations
 
 import time
 from collections.abc import Sequence
-from html import escape
 from pathlib import Path
 
+from app import __version__
+from app.diagnosis.report.parts.budget import where_from
 from app.diagnosis.report.parts.case import Case
 from app.diagnosis.report.parts.drivers import drivers
 from app.diagnosis.report.parts.findings import findings
 from app.diagnosis.report.parts.head import head
+from app.diagnosis.report.parts.joints import joints
 from app.diagnosis.report.parts.judged import judged
-from app.diagnosis.report.parts.lists import leftover, next_poses, notes, outliers
-from app.diagnosis.report.parts.making import making, reading
+from app.diagnosis.report.parts.lists import lists
 from app.diagnosis.report.parts.space import space
-from app.diagnosis.report.parts.timeline import timeline
+from app.diagnosis.report.parts.torques import torques
 from app.diagnosis.report.style import CSS
+from app.diagnosis.report.templating import drawn, render
 from app.diagnosis.result import Diagnosis
 from app.diagnosis.wording import WORDS
-from app.errors import InputError
+from app.files import write_text
 from app.kinematics import RobotModel
 from app.phrases import FALLBACK
 
-SECTIONS = (judged, findings, leftover, drivers, space, timeline, outliers, next_poses, notes)
+SECTIONS = (where_from, judged, findings, joints, torques, drivers, space, lists)
+GLOSSARY = ("budget", "before_after", "held_out", "certainty", "visible", "std", "delta_bic")
 
 
 def as_page(
@@ -47,16 +50,22 @@ def as_page(
     bodies = []
     for diagnosis, robot in zip(diagnoses, robots, strict=True):
         case = Case(diagnosis, robot, language)
-        inside = head(case, date) + "".join(part(case) for part in SECTIONS)
-        bodies.append(f'<article class="{"again" if bodies else "first"}">{inside}</article>')
-    names = ", ".join(Path(d.file).name for d in diagnoses)
-    title = WORDS.text("page.title.page", language, names=names)
+        bodies.append([head(case, date), *(part(case) for part in SECTIONS)])
+
+    def t(key: str, **fields: object) -> str:
+        return WORDS.text(f"page.{key}", language, **fields)
+
     seconds = sum(d.seconds for d in diagnoses)
-    return (
-        f'<!doctype html><html lang="{language}"><head><meta charset="utf-8">'
-        '<meta name="viewport" content="width=device-width,initial-scale=1">'
-        f"<title>{escape(title)}</title><style>{CSS}</style></head><body>"
-        f"{''.join(bodies)}{reading(language)}{making(command, seed, seconds, date, language)}</body></html>\n"
+    return render(
+        "page.html",
+        language=language,
+        title=t("title.page", names=", ".join(Path(d.file).name for d in diagnoses)),
+        css=drawn(CSS),
+        bodies=bodies,
+        t=t,
+        glossary=GLOSSARY,
+        made=t("made", version=__version__, date=date, seconds=f"{seconds:.2f}", seed=seed),
+        command=command,
     )
 
 
@@ -74,11 +83,4 @@ def write_report(
     Raises:
         InputError: the file cannot be written.
     """
-    path = Path(path)
-    temporary = path.with_name(path.name + ".part")
-    try:
-        page = as_page(diagnoses, robots, command=command, seed=seed, language=language)
-        temporary.write_text(page, encoding="utf-8")
-        temporary.replace(path)
-    except OSError as error:
-        raise InputError(f"cannot be written ({error.strerror})", file=path) from None
+    write_text(path, as_page(diagnoses, robots, command=command, seed=seed, language=language))

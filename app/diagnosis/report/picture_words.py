@@ -41,6 +41,7 @@ _LABELS = _compiled(
     (r"From the side", "side"),
     (r"(?P<axis>[xyz]) of base \[(?P<unit>[^\]]+)\]", "of_base"),
     (r"Error before and after, against the noise", "bars"),
+    (r"torque error of each joint by family", "by_family"),
 )
 #: Labels made of others: their fields are put into words first.
 _MADE_OF_OTHERS = _compiled(

@@ -6,15 +6,17 @@ svg{display:block;width:100%;height:auto;font-family:inherit}
 .tick{font-size:9px;fill:#5b6873}.label{font-size:10px;fill:#1c2730}.value{font-size:10px;fill:#1c2730}
 .end{text-anchor:end}.mid{text-anchor:middle}
 .grid{stroke:#e6eaee;stroke-width:.8}.zero{stroke:#9aa5af;stroke-width:.9}
-.fill-before{fill:var(--before)}.fill-after{fill:var(--after)}
+.fill-before{fill:var(--before)}.fill-after{fill:var(--after)}.fill-given{fill:#2f8f5b}
 .noise{stroke:var(--noise);stroke-width:1.4;stroke-dasharray:5 3}
 .dot{fill:none;stroke-linecap:round;stroke-width:3.2}.dot.before{stroke:var(--before);opacity:.45}
 .dot.after{stroke:var(--after);opacity:.55}.dot.place{stroke:#1c2730;stroke-width:2.2;opacity:.6}
 .mean,.halo,.trace,.stroke{fill:none;stroke-linejoin:round;stroke-linecap:round}
 .halo{stroke:#fff;stroke-width:4.6}.mean{stroke-width:2.2}
 .stroke{stroke-width:1.2}.trace{stroke-width:1}.trace.measured{stroke:#1c2730;stroke-width:1.1}
+.trace.missed{stroke:#1c2730;stroke-width:.6;opacity:.55}
 .mean.before,.stroke.before,.trace.before{stroke:var(--before)}
 .mean.after,.stroke.after,.trace.after{stroke:var(--after)}.stroke.aside{stroke:#aab3bb}
+.flag{fill:#a3262a}.flag-number{font-size:9px;font-weight:600;fill:#fff}
 .window{fill:#f3d9d9}.now{stroke:#a3262a;stroke-width:1.4}
 """
 
@@ -39,20 +41,23 @@ p{margin:0 0 7px}section>p.small{break-after:avoid;break-inside:avoid}.soft{colo
 .key{display:flex;flex-wrap:wrap;gap:4px 18px;font-size:8.8pt;color:var(--soft);margin:2px 0 4px;break-after:avoid}
 .key i{display:inline-block;width:16px;height:8px;margin-right:5px;border-radius:2px;vertical-align:1px}
 .key i.b{background:var(--before)}.key i.a{background:var(--after)}.key i.m{background:var(--ink)}
-.key i.w{background:#f3d9d9}.key i.n{height:0;border-top:2px dashed var(--noise);vertical-align:3px;border-radius:0}
-.card{border:1px solid var(--rule);border-radius:6px;padding:8px 13px 8px;margin:0 0 8px;break-inside:avoid}
-.card .top{display:flex;gap:10px;align-items:baseline;flex-wrap:wrap}
-.card .no{background:var(--after);color:#fff;border-radius:50%;width:21px;height:21px;text-align:center;
-font-size:9.4pt;line-height:21px;font-weight:600;flex:none}
-.card .where{color:var(--soft)}
-.card .say{font-size:10.6pt;margin:4px 0 5px}
-.facts{display:grid;grid-template-columns:1.15fr 1fr;gap:4px 22px}
-.facts dl{margin:0;display:grid;grid-template-columns:max-content 1fr;gap:2px 12px;align-content:start}
-dt{color:var(--soft)}dd{margin:0;font-variant-numeric:tabular-nums}
-.law{font-family:"Cambria Math","STIX Two Math","Latin Modern Math",Cambria,"DejaVu Serif",serif;font-style:italic}
-.meter{display:inline-block;width:90px;height:7px;background:var(--rule);border-radius:4px;vertical-align:1px;
+.key i.g{background:#2f8f5b}.key i.w{background:#f3d9d9}
+.key i.n{height:0;border-top:2px dashed var(--noise);vertical-align:3px;border-radius:0}
+.sum{font-size:13pt;line-height:1.35;font-weight:600;margin:2px 0 8px}.beside{margin:6px 0 10px}
+.budget figure+.key{margin-top:10px}
+.family{border-left:6px solid var(--tone);margin:0 0 9px;padding:1px 0 1px 11px}
+summary{cursor:default;break-after:avoid}.family>summary{display:flex;gap:12px;align-items:baseline;padding:3px 0}
+.family>summary .name{font-weight:650;font-size:11.4pt}.family>summary .name::first-letter{text-transform:uppercase}
+.family .amount{font-weight:600;font-variant-numeric:tabular-nums}.family .count{margin-left:auto;font-size:8.8pt}
+.laws td{vertical-align:top}.laws tr.top td{border-bottom:0;padding-bottom:0}.laws tbody{break-inside:avoid}
+.laws td.no{color:var(--soft);width:20px}.laws .where{color:var(--soft)}.laws td:nth-child(2){width:34%}
+.laws .say{font-size:9pt}.laws td.n{white-space:nowrap;font-size:8.8pt}.laws .values{white-space:nowrap;font-size:9pt}
+.glossary{display:grid;grid-template-columns:max-content 1fr;gap:2px 14px;margin:0}
+.law{font-size:8.8pt;color:var(--soft);
+font-family:"Cambria Math","STIX Two Math","Latin Modern Math",Cambria,"DejaVu Serif",serif;font-style:italic}
+.meter{display:inline-block;width:36px;height:7px;background:var(--rule);border-radius:4px;vertical-align:1px;
 margin-right:7px;overflow:hidden}.meter i{display:block;height:100%;background:var(--after)}
-.alt{margin:8px 0 0;padding-top:6px;border-top:1px solid var(--rule);font-size:9.2pt;color:var(--soft)}
+.alt{margin:3px 0 0;font-size:8.8pt;color:var(--warn)}
 .grid2{display:grid;grid-template-columns:1fr 1fr;gap:8px 14px}.grid2>*{break-inside:avoid}
 figure{margin:0;break-inside:avoid}figcaption{font-size:8.8pt;color:var(--soft)}
 table{border-collapse:collapse;width:100%;font-variant-numeric:tabular-nums;font-size:9.4pt}
@@ -66,7 +71,7 @@ code{font-family:"DejaVu Sans Mono",Consolas,monospace;font-size:8.6pt;overflow-
 @media screen{body{margin:8mm auto;box-shadow:0 1px 8px rgba(28,39,48,.18)}}
 @media print{html{background:#fff}body{padding:0;max-width:none;margin:0}}
 @page{size:A4;margin:15mm 16mm 16mm}
-@media (max-width:640px){.grid2,.facts{grid-template-columns:1fr}body{padding:16px}}
+@media (max-width:640px){.grid2{grid-template-columns:1fr}body{padding:16px}}
 """
     + PICTURES
 )

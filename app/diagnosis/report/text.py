@@ -2,47 +2,78 @@
 
 from __future__ import annotations
 
+import math
 import textwrap
 from collections.abc import Sequence
 from pathlib import Path
 
+from app.diagnosis.report.budget import (
+    SMALL_LAW,
+    Budget,
+    Step,
+    budget,
+    budget_sentence,
+    family_name,
+    law_share,
+    percent,
+    shown,
+    unexplained_sentence,
+)
 from app.diagnosis.report.wording import (
     effect_title,
     fall,
     joint_values,
     measure,
     noise_source,
+    parameter_name,
     place,
     probability,
     quantity,
+    rivals,
     verdict_sentence,
 )
-from app.diagnosis.result import Diagnosis, Finding, Judged
+from app.diagnosis.result import Diagnosis, Judged
 
 WIDTH = 100
 _LABEL = 17
+_BAR = 30  # letters of the longest bar
 
 
-def as_text(diagnosis: Diagnosis, *, prismatic: Sequence[bool] = (), seconds: bool = True) -> str:
-    """The whole diagnosis as lines of at most 100 characters.
+def as_text(
+    diagnosis: Diagnosis, *, prismatic: Sequence[bool] = (), seconds: bool = True, flange: str = ""
+) -> str:
+    """The whole diagnosis as lines of at most 100 characters: verdict, error budget, laws by family.
 
     Args:
         prismatic: which joints slide, so that proposed poses carry the right unit.
         seconds: False leaves the running time out.
+        flange: the link that was taken as the flange, where it is to be named.
     """
     d = diagnosis
+    of = budget(d)
     time = f" · {d.seconds:.2f} s" if seconds else ""
+    at = f", flange {flange}" if flange else ""
     lines = [
-        f"{d.file} · {d.kind} recording · {d.samples} samples · robot {d.robot}{time}",
+        f"{d.file} · {d.kind} recording · {d.samples} samples · robot {d.robot}{at}{time}",
         "",
         *_wrapped(f"{d.verdict.upper()}: {verdict_sentence(d)}"),
+        *_wrapped(budget_sentence(d)),
+        *_wrapped(unexplained_sentence(d)),
         "",
         *_quality(d),
+        *_families(of),
     ]
     if d.judged is not None:
         lines += ["", *_judged(d.judged)]
-    for number, finding in enumerate(d.findings, 1):
-        lines += ["", *_finding(number, finding, d.after.unit)]
+    laws: set[str] = set()
+    for step in of.steps:
+        if step.members or step.small:
+            lines += ["", _family(step, of.unit)]
+            lines += [line for k in step.members for line in _finding(d, k, laws)]
+            if step.small:
+                lines += _small(d, step.small)
+    for k in of.others:
+        lines += ["", *_finding(d, k, laws)]
     lines += ["", *_rest(d, prismatic)]
     return "\n".join(lines).rstrip() + "\n"
 
@@ -68,6 +99,42 @@ def _quality(d: Diagnosis) -> list[str]:
     ]
 
 
+def _families(of: Budget) -> list[str]:
+    """The budget as a table with bars: each family's amount, what is left with it, its share."""
+    if not of.known:
+        return []
+    row = "  {:<15}{:>12}{:>12}   {:>4}  {}".format
+    lines = [
+        "",
+        "  {:<15}{:>12}{:>12}   {}".format("error budget", "takes away", "leaves", "comes back without it"),
+    ]
+    for s in shown(of):
+        bar = "█" * round(_BAR * s.amount / of.total)
+        lines.append(
+            row(
+                family_name(s.family),
+                measure(s.amount, of.unit),
+                measure(s.left, of.unit),
+                percent(s.share),
+                bar,
+            )
+        )
+    return [line.rstrip() for line in lines]
+
+
+def _family(step: Step, unit: str) -> str:
+    name = family_name(step.family)
+    return f"{name[:1].upper()}{name[1:]} · {measure(step.amount, unit)} · {percent(step.share)}"
+
+
+def _small(d: Diagnosis, small: Sequence[int]) -> list[str]:
+    """Laws that are folded: how many, and where."""
+    named = (f"{effect_title(d.findings[k].effect)} ({place(d.findings[k].where)})" for k in small)
+    return _wrapped(
+        f"   {len(small)} more below {SMALL_LAW:.0%} of the error each: {'; '.join(named)}", indent=3
+    )
+
+
 def _judged(judged: Judged) -> list[str]:
     """What a model learnt elsewhere makes of this recording."""
     first = next(iter(judged.steps.values()))
@@ -82,34 +149,32 @@ def _judged(judged: Judged) -> list[str]:
     return lines
 
 
-def _finding(number: int, f: Finding, unit: str) -> list[str]:
-    unit = f.heldout_unit or unit
-    lines = _wrapped(f"{number}. {effect_title(f.effect)} · {place(f.where)}", indent=3)
+def _finding(d: Diagnosis, k: int, laws: set[str]) -> list[str]:
+    """One law; its equation the first time that it stands there."""
+    f = d.findings[k]
+    unit, share = f.heldout_unit or d.after.unit, law_share(f, d)
+    head = f"{k + 1}. {effect_title(f.effect)} · {place(f.where)}"
+    lines = _wrapped(f"{head} · {percent(share)}" if math.isfinite(share) else head, indent=3)
     lines += _wrapped(f"   {f.sentence}", indent=3)
     for parameter in f.parameters:
-        lines += _item(parameter.name, quantity(parameter))
-    lines += _item("certainty", f"{probability(f.p_value)} over the whole search")
-    lines += _item("visible", f"{f.visible:.0%} of it (the rest can hide in what else was fitted)")
+        lines += _item(parameter_name(parameter.name), quantity(parameter))
+    without, with_it = (measure(v, unit) for v in (f.heldout_rms_without, f.heldout_rms_with))
+    lines += _item("held out", f"{without} without it, {with_it} with it")
     lines += _item(
-        "held out",
-        f"{measure(f.heldout_rms_without, unit)} without it, {measure(f.heldout_rms_with, unit)} with it",
+        "certainty", f"{probability(f.p_value)} over the whole search; {f.visible:.0%} of it is visible here"
     )
-    if f.equation:
+    if f.equation and f.equation not in laws:
+        laws.add(f.equation)
         lines += _item("law", f.equation)
-    for i, a in enumerate(f.alternatives):
-        label = "not ruled out" if i == 0 else ""
-        lines += _item(label, f"{effect_title(a.effect)} · {place(a.where)} (ΔBIC {a.delta_bic:+.1f})")
+    if f.alternatives:
+        lines += _item("not ruled out", rivals(f))
     return lines
 
 
 def _rest(d: Diagnosis, prismatic: Sequence[bool]) -> list[str]:
     lines = []
-    if d.leftover.p_value is not None:
-        left = probability(d.leftover.p_value)
-        if d.verdict in ("clean", "named"):
-            lines += _item("left over", f"nothing beyond noise ({left})", 0)
-        else:
-            lines += _item("left over", f"structure at {place(d.leftover.where)} ({left})", 0)
+    if d.leftover.p_value is not None and d.verdict in ("clean", "named"):
+        lines += _item("left over", f"nothing beyond noise ({probability(d.leftover.p_value)})", 0)
     if d.outliers:
         lines += _item("set aside", f"{_rows(d.outliers)}: far off and not used", 0)
     for i, q in enumerate(d.next_poses):

@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from app.diagnosis.judging import BARE, MASSES, WITH
+from app.diagnosis.judging import BARE, WITH
 from app.diagnosis.result import Diagnosis, Finding, Judged, Parameter
 from app.diagnosis.wording import FALLBACK, WORDS, in_words
 from app.units import deg, mm, um
@@ -22,7 +22,7 @@ _READ_AS = {
 }
 
 #: What is in the simulation while a given model is judged -> the key of its words.
-_STEPS = {BARE: "judged.bare", MASSES: "judged.masses", WITH: "judged.with"}
+_STEPS = {BARE: "judged.bare", WITH: "judged.with"}
 _NEARLY_ALL = 0.99
 _UNIT_WORDS = ("row", "turn")  # units that are words
 
@@ -94,6 +94,20 @@ def place(where: Mapping[str, Any], language: str = FALLBACK) -> str:
     known = {"body", "joint", "link", "axis", "source_joint", "driver", "from_row", "from_s", "to_s"}
     parts += [f"{key.replace('_', ' ')} {value}" for key, value in where.items() if key not in known]
     return WORDS.text("list.between", language).join(parts) or said("nowhere")
+
+
+def rivals(finding: Finding, language: str = FALLBACK) -> str:
+    """Other explanations that the recording does not rule out, as one set; "" where there are none."""
+    return WORDS.text("page.found.between", language).join(
+        WORDS.text(
+            "page.found.alternative",
+            language,
+            effect=effect_title(a.effect, language),
+            where=place(a.where, language),
+            delta=f"{a.delta_bic:+.1f}",
+        )
+        for a in finding.alternatives
+    )
 
 
 def finding_sentence(finding: Finding, language: str = FALLBACK) -> str:

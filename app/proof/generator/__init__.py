@@ -11,6 +11,7 @@ topologies/     random arms, one file a family
 effects/        static/, motion/: one file an effect; outside/: laws that no library holds
 static/         touches and tracker points
 motion/         joint logs over time
+observer.py     what could be learnt from a recording by one who knows how it was made
 noise.py        measurement noise and outliers
 files.py        the CSV, and the truth beside it
 """

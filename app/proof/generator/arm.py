@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 import numpy as np
 
-from app.proof.generator.rotations import turn, turn_vector
+from app.proof.generator.rotations import cross, turn, turn_vector
 
 PARALLEL = 1e-6  # sine of the angle below which two axes count as parallel
 
@@ -101,10 +102,11 @@ def stance(
 def point_jacobian(arm: Arm, where: Stance, points: np.ndarray) -> np.ndarray:
     """How points fixed to the flange move with the joints: points (m, 3) in base -> (m, 3, n) [m/rad or m/m]."""
     lever = points[:, None, :] - where.places
-    columns = np.where(arm.slides[None, :, None], where.axes, np.cross(where.axes, lever))
+    columns = np.where(arm.slides[None, :, None], where.axes, cross(where.axes, lever))
     return np.swapaxes(columns, 1, 2)
 
 
+@lru_cache(maxsize=256)  # asked for again and again of the same few arms
 def link_axes(arm: Arm, link: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Directions x (common normal), y (next axis cross x) and z (own joint) of link 1..n, in the link's frame.
 

@@ -54,8 +54,11 @@ def moving_torques(
     load_kg: np.ndarray | float = 0.0,
     load_at: np.ndarray | None = None,
     load_inertia: np.ndarray | None = None,
+    load_link: int | None = None,
 ) -> np.ndarray:
     """Recursive Newton-Euler: torques of a moving arm, (m, n) each argument -> (m, n).
+
+    A load of `load_kg` sits at `load_at` (3,) [m] in the flange, or in the frame of link `load_link` (from 0).
 
     Outward: speeds and accelerations of every link; inward: the forces that cause them. A body that falls
     freely needs no force, so gravity enters as an upward acceleration of the base.
@@ -83,10 +86,11 @@ def moving_torques(
         force, moment, centre = _body(
             rotation, place, spin, spin_rate, push, arm.masses[k], arm.coms[k], arm.inertias[k]
         )
-        if k == n - 1 and np.any(np.asarray(load_kg) != 0):
+        if k == (n - 1 if load_link is None else load_link) and np.any(np.asarray(load_kg) != 0):
+            flange = (where.flange_rotations, where.flange_places)
             force, moment, centre = _with_load(
                 (force, moment, centre),
-                (where.flange_rotations, where.flange_places),
+                flange if load_link is None else (rotation, place),
                 (spin, spin_rate, push, place),
                 np.broadcast_to(load_kg, (m,)),
                 load_at,

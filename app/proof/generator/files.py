@@ -9,16 +9,29 @@ from typing import Any
 
 import numpy as np
 
+from app.files import write_text
 from app.proof.generator.effects.term import Term
 from app.proof.generator.rotations import to_quaternion
 from app.proof.generator.static.making import Made
 from app.units import mm
 
 
-def write_static(made: Made, path: Path, robot: str) -> None:
-    """The CSV of a touch or tracker recording; `robot` is what its header names."""
+def write_static(
+    made: Made,
+    path: Path,
+    robot: str,
+    order: Sequence[int] | None = None,
+    more: Mapping[str, str] | None = None,
+) -> None:
+    """The CSV of a touch or tracker recording.
+
+    Args:
+        robot: what its header names.
+        order: which row (from 0) stands first, second …; without it as they were taken.
+        more: further header keys, beside `robot`.
+    """
     plan, cell = made.plan, made.cell
-    header: dict[str, Any] = {"kind": plan.kind, "robot": robot}
+    header: dict[str, Any] = {"kind": plan.kind, "robot": robot, **(more or {})}
     if plan.stated:
         header["noise_mm"] = f"{mm(plan.noise):.6g}"
     if np.any(cell.load_kg):
@@ -47,10 +60,12 @@ def write_static(made: Made, path: Path, robot: str) -> None:
             columns[f"tau{j + 1}_Nm"] = [f"{v:.4f}" for v in values]
     if np.any(cell.load_kg):
         columns["payload_kg"] = [f"{v:g}" for v in cell.load_kg]
-    if plan.repeats:
+    if plan.repeats and plan.labelled:
         columns["pose"] = [f"P{k}" for k in made.pose]
     if plan.sessions > 1:
         columns["session"] = [f"S{k + 1}" for k in cell.session]
+    if order is not None:
+        columns = {name: [cells[i] for i in order] for name, cells in columns.items()}
     write_csv(path, header, columns)
 
 
@@ -67,9 +82,7 @@ def write_csv(path: Path, header: Mapping[str, Any], columns: Mapping[str, Seque
     lines = [f"# {key}: {value}" for key, value in header.items()]
     lines.append(",".join(columns))
     lines += [",".join(row) for row in zip(*columns.values(), strict=True)]
-    part = path.with_name(path.name + ".part")
-    part.write_text("\n".join(lines) + "\n", encoding="utf-8")
-    part.replace(path)
+    write_text(path, "\n".join(lines) + "\n")
 
 
 def truth_of(made: Made) -> dict[str, Any]:
@@ -94,7 +107,7 @@ def term_json(term: Term) -> dict[str, Any]:
 
 
 def write_truth(path: Path, truth: Mapping[str, Any]) -> None:
-    path.write_text(json.dumps(truth, indent=1) + "\n", encoding="utf-8")
+    write_text(path, json.dumps(truth, indent=1) + "\n")
 
 
 def truth_path(recording: Path) -> Path:

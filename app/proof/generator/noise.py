@@ -5,20 +5,27 @@ from __future__ import annotations
 import numpy as np
 from scipy.signal import lfilter
 
-KINDS = ("gaussian", "coloured", "heavy")
+KINDS = ("gaussian", "coloured", "heavy", "laplace", "mixed")
 MEMORY = 0.6  # of coloured noise, from one row to the next
 TAIL = 4.0  # degrees of freedom of Student's t
+WIDE, OFTEN = 4.0, 0.1  # of mixed noise: how much wider the wide part is, and how often it comes
 
 
 def draw_noise(rng: np.random.Generator, shape: tuple[int, ...], sigma: float, kind: str) -> np.ndarray:
     """Noise of standard deviation `sigma`; coloured along the first dimension.
 
     Args:
-        kind: "gaussian", "coloured" (first-order autoregressive) or "heavy" (Student's t).
+        kind: "gaussian", "coloured" (first-order autoregressive), "heavy" (Student's t), "laplace" (falls off
+            exponentially) or "mixed" (now and then a reading from a wider Gaussian).
     """
     if kind == "heavy":
         return sigma * rng.standard_t(TAIL, shape) / np.sqrt(TAIL / (TAIL - 2.0))
+    if kind == "laplace":
+        return sigma * rng.laplace(scale=np.sqrt(0.5), size=shape)
     white = rng.normal(size=shape)
+    if kind == "mixed":
+        wide = np.where(rng.random(shape) < OFTEN, WIDE, 1.0)
+        return sigma * white * wide / np.sqrt(1.0 + OFTEN * (WIDE**2 - 1.0))
     if kind == "coloured":
         white[1:] *= np.sqrt(1.0 - MEMORY**2)
         white = np.asarray(lfilter([1.0], [1.0, -MEMORY], white, axis=0))

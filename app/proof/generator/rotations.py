@@ -13,6 +13,9 @@ def turn(axis: np.ndarray, angle: np.ndarray | float) -> np.ndarray:
     a = np.asarray(axis, float)
     angle = np.asarray(angle, float)
     c, s = np.cos(angle)[..., None, None], np.sin(angle)[..., None, None]
+    if a.ndim == 1:
+        across = np.outer(a, a)
+        return across + c * (np.eye(3) - across) + s * cross_matrix(a)
     return c * np.eye(3) + (1.0 - c) * a[..., :, None] * a[..., None, :] + s * cross_matrix(a)
 
 

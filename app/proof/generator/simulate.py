@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 
 from app import catalog, resources
 from app.errors import InputError
+from app.proof.generator.arm import Arm
 from app.proof.generator.effects.term import Term, parse_request
 from app.proof.generator.files import truth_of, truth_path, write_static, write_truth
 from app.proof.generator.static.cell import LAWS
@@ -31,6 +32,7 @@ def simulate_static(
     held: Sequence[Term] = (),
     clutter: float = 0.0,
     wrong_masses: float = 0.0,
+    part: Part | None = None,
     say: Callable[[str], None] = lambda _: None,
 ) -> Path:
     """Writes `out` and its truth.
@@ -41,6 +43,7 @@ def simulate_static(
         held: effects with all their values, such as those of a saved model.
         clutter: one-sigma error of every length [m] of the arm as built.
         wrong_masses: share by which its masses differ from the description.
+        part: the arm within the description, where it was chosen.
         say: called with what is being done.
 
     Returns:
@@ -52,7 +55,7 @@ def simulate_static(
     requests = [parse_request(text, LAWS) for text in effects]
     check_rows(plan.samples)
     path = find_robot(robot)
-    described = read_arm(path)
+    described = read_part(path, part)
     rng = np.random.default_rng(seed)
     arm = as_built(described, clutter, rng) if clutter else described
     arm = misweighed(arm, wrong_masses, rng) if wrong_masses else arm
@@ -64,13 +67,33 @@ def simulate_static(
     weightless = not np.any(described.masses)
     made = make(plan, lumped(arm) if weightless else arm, described, requests, rng, held=held)
     out = writable(out)
-    write_static(made, out, robot_key(robot, path, out))
+    write_static(made, out, robot_key(robot, path, out), more={} if part is None else part.header)
     truth = truth_path(out)
     write_truth(truth, {**truth_of(made), "seed": seed, "robot": robot})
     if weightless:
         say("the description states no masses: took 20 kg per metre of link")
     say(f"wrote {out} and {truth}")
     return truth
+
+
+@dataclass(frozen=True)
+class Part:
+    """The arm within a description.
+
+    Args:
+        urdf: a URDF in which only the arm's joints move.
+        flange: the link that ends it.
+        header: what the recording's header says of the choice, beside `robot`.
+    """
+
+    urdf: str
+    flange: str
+    header: dict[str, str]
+
+
+def read_part(path: Path, part: Part | None) -> Arm:
+    """The arm of a description, or the part of it that was chosen."""
+    return read_arm(path) if part is None else read_arm(path, part.urdf, part.flange)
 
 
 def check_rows(samples: int) -> None:

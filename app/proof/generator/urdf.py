@@ -31,14 +31,19 @@ def find_robot(name: str) -> Path:
     return path
 
 
-def read_arm(path: Path) -> Arm:
+def read_arm(path: Path, plain: str | None = None, flange: str | None = None) -> Arm:
     """The chain with most moving joints, to a frame called tool0, flange or ee_link where one ends it.
 
+    Args:
+        path: the URDF.
+        plain: a URDF in which only the arm's joints move, in place of what the file holds.
+        flange: the link that ends the chain.
+
     Raises:
-        FileFormatError: not a description of a serial arm with 1 to 8 joints.
+        FileFormatError: not a description of a serial arm.
     """
     try:
-        root = ET.parse(path).getroot()
+        root = ET.parse(path).getroot() if plain is None else ET.fromstring(plain)
     except (OSError, ET.ParseError, ValueError) as error:
         raise FileFormatError(f"not a robot description ({error})", file=path, expected="URDF") from None
     by_child = {_attribute(j, "child", "link"): j for j in root.findall("joint")}
@@ -50,12 +55,18 @@ def read_arm(path: Path) -> Arm:
             tip = _attribute(by_child[tip], "parent", "link")
         chains[link.get("name", "")] = chain[::-1]
     count = {name: sum(j.get("type") in MOVING for j in chain) for name, chain in chains.items()}
-    most = max(count.values(), default=0)
-    if not 1 <= most <= 8:
-        raise FileFormatError(f"{most} moving joints in a row", file=path, expected="1 to 8")
+    most = max(count.values(), default=0) if flange is None else count.get(flange, 0)
+    if most < 1:
+        raise FileFormatError(f"{most} moving joints in a row", file=path, expected="1 or more")
+    if any(j.find("mimic") is not None and j.get("type") in MOVING for j in root.findall("joint")):
+        raise FileFormatError(
+            "a joint follows another, which no recording is made of",
+            file=path,
+            expected="an arm without <mimic>",
+        )
     longest = [name for name in chains if count[name] == most]
     named = [tip for tip in TIPS if tip in longest]
-    tip = named[0] if named else max(longest, key=lambda name: len(chains[name]))
+    tip = flange or (named[0] if named else max(longest, key=lambda name: len(chains[name])))
     try:
         return _arm(root, chains[tip], path.stem)
     except (ValueError, AttributeError) as error:

@@ -11,7 +11,9 @@ from __future__ import annotations
 from pathlib import Path
 
 from app.errors import FileFormatError
+from app.recordings.options import ReadOptions
 from app.recordings.point_lists import (
+    as_asked,
     delimiter_of,
     is_number,
     number,
@@ -36,7 +38,7 @@ class SpatialAnalyzer:
             return False
         return lines[0].lstrip().startswith("//") or "::" in lines[0]
 
-    def read(self, path: Path) -> Table:
+    def read(self, path: Path, options: ReadOptions | None = None) -> Table:
         """Reads all of it.
 
         Raises:
@@ -64,7 +66,8 @@ class SpatialAnalyzer:
             name = "::".join(cell for cell in cells[:start] if cell)
             xyz = tuple(number(cell, path=path, row=k, column="XYZ") for cell in cells[start : start + 3])
             rows.append((k, name, xyz))
-        return point_table(path, rows, unit_said(comments), self.title, max(len(comments), 1))
+        table = point_table(path, rows, unit_said(comments), self.title, max(len(comments), 1))
+        return as_asked(table, options)
 
 
 def _coordinates(cells: tuple[str, ...]) -> int | None:

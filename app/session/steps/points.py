@@ -8,7 +8,7 @@ import numpy as np
 
 from app.calibration.captures import Capture, Step
 from app.calibration.tool import METHODS
-from app.errors import UnknownNameError
+from app.errors import TeachframeError, UnknownNameError
 from app.session.actions import Cancel, Comment, Delete, LoadPoints, Record, ReRecord
 from app.session.points import loaded_points
 from app.session.refusals import enough_touches, refusal
@@ -17,6 +17,8 @@ from app.session.steps.setup import checked_joints
 
 #: Roles of which a mode takes as many as it is asked for.
 _COUNTED = frozenset({"touch", "plane"})
+#: Roles of strokes, which may be made backwards.
+_STROKES = frozenset({"x", "y", "z"})
 
 
 def known_step(state: SessionState, key: str) -> Step:
@@ -31,23 +33,27 @@ def _record(state: SessionState, action: Record) -> SessionState:
     step = known_step(state, action.step)
     if step.key in state.captures:
         raise refusal("recorded", title=step.title)
-    return _captured(state, step, action.q)
+    return _captured(state, step, action.q, action.back)
 
 
 def _re_record(state: SessionState, action: ReRecord) -> SessionState:
     step = known_step(state, action.step)
     if step.key not in state.captures:
         raise refusal("not_recorded", title=step.title)
-    return _captured(state, step, action.q)
+    return _captured(state, step, action.q, action.back)
 
 
-def _captured(state: SessionState, step: Step, q: tuple[float, ...] | None) -> SessionState:
+def _captured(state: SessionState, step: Step, q: tuple[float, ...] | None, back: bool) -> SessionState:
     """The flange pose is what the controller shows: its nominal forward kinematics of the angles it reads."""
+    if back and step.role not in _STROKES:
+        raise refusal("no_stroke_back", title=step.title)
     joints = state.q if q is None else checked_joints(state, q)
     row = [s.key for s in state.steps].index(step.key) + 1
     angles = np.array(joints)
     angles.flags.writeable = False
-    capture = Capture(step.key, step.role, state.model.forward(angles), angles, row)
+    capture = Capture(
+        step.key, f"-{step.role}" if back else step.role, state.model.forward(angles), angles, row
+    )
     running = state.running and replace(state.running, records=state.running.records + 1)
     return state.but(
         q=joints,
@@ -92,7 +98,10 @@ def _load(state: SessionState, action: LoadPoints) -> SessionState:
         raise refusal("unknown", reason=str(error)) from None
     if action.method not in METHODS:
         raise refusal("unknown", reason=f"unknown estimator {action.method!r}")
-    points = loaded_points(action)
+    try:
+        points = loaded_points(action)
+    except TeachframeError as error:
+        raise refusal("unknown", reason=str(error)) from None
     touches = sum(bool(_COUNTED & set(capture.roles)) for capture in points.captures)
     if touches < mode.least_touches:
         enough_touches(touches)
@@ -104,7 +113,7 @@ def _load(state: SessionState, action: LoadPoints) -> SessionState:
     left = list(points.captures)
     captures = {}
     for step in steps:
-        found = next((c for c in left if set(c.roles) == set(step.roles)), None)
+        found = next((c for c in left if set(_forward(c)) == set(step.roles)), None)
         if found is None:
             raise refusal("missing", titles=f"{step.title} (role {step.role})")
         left.remove(found)
@@ -118,6 +127,10 @@ def _load(state: SessionState, action: LoadPoints) -> SessionState:
         result=None,
         source=action,
     )
+
+
+def _forward(capture: Capture) -> tuple[str, ...]:
+    return tuple(role.removeprefix("-") for role in capture.roles)
 
 
 ACTIONS = {

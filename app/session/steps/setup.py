@@ -7,7 +7,8 @@ import math
 import numpy as np
 
 from app.calibration.tool import METHODS
-from app.diagnosis.static.predict import model_flange_matrix
+from app.diagnosis.model_checks import fitting
+from app.diagnosis.models.kinematic.predict import model_flange_matrix
 from app.errors import TeachframeError, UnknownNameError
 from app.geometry import Pose
 from app.session.actions import ChooseMethod, ChooseMode, ChooseRobot, Move, SetUserFrame, UseModel
@@ -16,6 +17,8 @@ from app.session.state import SessionState, first_state, mode_named
 
 #: How far beyond a limit [rad or m] a joint may be written, because it was read from a screen with few digits.
 LIMIT_SLACK = 1e-6
+#: No fault moves a flange farther than this [m].
+_BENT = 5.0
 
 
 def _choose_robot(state: SessionState, action: ChooseRobot) -> SessionState:
@@ -42,7 +45,7 @@ def choose_mode(state: SessionState, action: ChooseMode) -> SessionState:
     kept = {
         step.key: state.captures[step.key]
         for step in mode.steps(touches)
-        if step.key in state.captures and state.captures[step.key].role == step.role
+        if step.key in state.captures and state.captures[step.key].role.removeprefix("-") == step.role
     }
     comments = {key: text for key, text in state.comments.items() if key in kept}
     return state.but(mode=mode.key, touches=touches, captures=kept, comments=comments, result=None)
@@ -90,15 +93,22 @@ def _use_model(state: SessionState, action: UseModel) -> SessionState:
     if model is not None:
         if model.kind != "static":
             raise refusal("model_kind")
-        beyond = [
-            k for e in model.effects for k in ("joint", "link") if e.where.get(k, 1) > state.model.joint_count
-        ]
-        if beyond or model.robot != state.robot:
+        if model.robot != state.robot:
             raise refusal("model_robot", learnt=model.robot, robot=state.robot)
         try:
-            model_flange_matrix(state.model, model, np.array(state.q))
+            fitting(model, state.model)
+            bent = model_flange_matrix(state.model, model, np.array(state.q))
         except TeachframeError as error:  # an effect nobody knows, a value that is missing
             raise refusal("unknown", reason=str(error)) from None
+        except (KeyError, TypeError, ValueError, IndexError, ArithmeticError) as error:  # a place it has not
+            raise refusal(
+                "unknown", reason=f"the model cannot be applied ({type(error).__name__}: {error})"
+            ) from None
+        if (
+            not np.isfinite(bent).all()
+            or np.abs(bent - state.model.forward(np.array(state.q)).matrix).max() > _BENT
+        ):
+            raise refusal("unknown", reason="the model moves the arm by more than its own size")
     return state.but(cell_model=model)
 
 

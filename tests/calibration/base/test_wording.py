@@ -129,7 +129,13 @@ def test_a_run_with_remarks_speaks_chinese(tmp_path, case):
         keys = ["robot: ur10e"]
     result = run_base([write(tmp_path / "a.csv", first, second, keys=keys, axes=axes)])
     assert isinstance(result, ArcResult) and result.bases[0].warnings
-    names = ("a.csv", "Universal Robots UR10e", *(f"! {w.code}" for w in result.bases[0].warnings))
+    names = (
+        "a.csv",
+        "Universal Robots UR10e",
+        "base",
+        "flange",
+        *(f"! {w.code}" for w in result.bases[0].warnings),
+    )
     left = {line: english_left(line, names) for line in _said(result)}
     assert not [line for line, words in left.items() if words], left
     assert all(w.said(FALLBACK) == str(w) for w in result.bases[0].warnings)

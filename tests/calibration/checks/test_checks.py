@@ -73,10 +73,32 @@ def test_touches_almost_about_one_axis_name_the_axis():
 
 
 def test_touches_are_compared_with_all_others_not_only_the_first():
-    rotations, _ = touches(5, 0.6)
-    rotations[4] = rotations[2] @ rot_x(0.03)
+    rotations, _ = touches(4, 0.6)
+    rotations[3] = rotations[1] @ rot_x(0.03)
     warning = said(calibrate(captures(*touches(rotations=rotations, noise=NOISE))), "too_alike")
-    assert "3 and 5 (1.7 degrees)" in warning.message and "touch 5" in warning.advice
+    assert "2 and 4 (1.7 degrees)" in warning.message and "touch 4" in warning.advice
+
+
+@pytest.mark.parametrize("different, alike", [(3, True), (4, False), (5, False), (6, False)])
+def test_a_touch_that_comes_again_is_a_fault_only_where_it_stands_for_one_of_four(different, alike):
+    rotations, _ = touches(different, 0.6)
+    again = np.concatenate([rotations, rotations[:1]])
+    result = calibrate(captures(*touches(rotations=again, noise=NOISE)))
+    assert ("too_alike" in codes(result)) == alike
+
+
+def test_beside_a_known_tool_one_orientation_is_enough():
+    demo = modes()["reference"].demo(touches=1, noise=NOISE)
+    known, new = demo.captures
+    again = Capture("touch2", "touch", new.T_base_flange, None, 3)
+    result = modes()["reference"].solve([known, new, again], **demo.options)
+    assert "too_alike" not in codes(result)
+
+
+def test_many_touches_in_three_orientations_are_alike_however_many_they_are():
+    rotations, _ = touches(3, 0.6)
+    result = calibrate(captures(*touches(rotations=np.tile(rotations, (4, 1, 1)), noise=NOISE)))
+    assert "too_alike" in codes(result)
 
 
 @pytest.mark.parametrize("start", [3, 4, 5])

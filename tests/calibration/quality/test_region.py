@@ -3,10 +3,11 @@
 import numpy as np
 import pytest
 
-from app.calibration.quality.region import ellipsoid, half_widths, reach
+from app.calibration.quality.region import ellipsoid, half_widths
 from app.calibration.solvers.joint import fit_joint
 from app.calibration.solvers.pairwise import fit_pairwise
 from app.calibration.tool import calibrate
+from app.estimation import reach
 from app.geometry import angle_between
 from app.units import from_deg, from_mm
 from tests.calibration.drawing import SPIKE, TOOL, captures, stroke, touches, turns

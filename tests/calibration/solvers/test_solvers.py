@@ -8,9 +8,10 @@ from hypothesis import strategies as st
 from app.calibration.solvers.joint import fit_joint, solve_joint
 from app.calibration.solvers.pairwise import fit_pairwise
 from app.calibration.solvers.robust import fit_robust
+from app.calibration.tool import calibrate
 from app.errors import DegenerateGeometryError, TooFewPointsError
 from app.geometry import Pose, exp_so3, rot_x, rot_z
-from tests.calibration.drawing import SPIKE, TOOL, touches
+from tests.calibration.drawing import SPIKE, TOOL, captures, touches
 
 EXACT = 1e-9  # m, of a metre
 NOISE = 3e-4
@@ -115,3 +116,44 @@ def test_the_robust_fit_keeps_every_touch_and_says_what_it_counted():
     assert len(robust.weights) == 9 and (robust.weights > 0).all()
     assert np.argmin(robust.weights) == 4 and robust.weights[4] < 0.2
     assert np.linalg.norm(robust.tool - TOOL) < 0.3 * np.linalg.norm(plain.tool - TOOL)
+
+
+#: One touch of four is off by this [m], fifteen times the noise: what three others exclude.
+OFF = np.array([0.0045, 0.0, 0.0])
+
+
+def test_of_four_touches_the_one_that_the_others_exclude_counts_less():
+    told = 0
+    for seed in range(40):
+        rotations, positions = touches(4, 0.6, NOISE, seed)
+        positions[seed % 4] += OFF
+        found = fit_robust(rotations, positions)
+        told += bool(np.argmin(found.weights) == seed % 4 and found.weights[seed % 4] < 0.5)
+    assert told > 30
+
+
+def test_four_touches_with_noise_alone_all_count():
+    least = [fit_robust(*touches(4, 0.6, NOISE, seed)).weights.min() for seed in range(200)]
+    assert np.mean(np.array(least) < 0.5) < 0.1
+
+
+def test_four_touches_that_cannot_tell_say_so():
+    said = {"told": 0, "undecided": 0, "silent": 0}
+    for seed in range(40):
+        rotations, positions = touches(4, 0.6, 3e-3, seed)
+        result = calibrate(captures(rotations, positions), method="robust")
+        codes = {w.code for w in result.warnings}
+        if result.weights.min() < 0.5:
+            said["told"] += 1
+        elif "robust_undecided" in codes:
+            said["undecided"] += 1
+        else:
+            said["silent"] += 1
+            assert result.mean <= 5e-4
+    assert said["undecided"] > 20
+
+
+def test_three_touches_cannot_tell_and_say_so():
+    rotations, positions = touches(3, 0.6, 4e-3, 1)
+    result = calibrate(captures(rotations, positions), method="robust")
+    assert "robust_undecided" in {w.code for w in result.warnings}

@@ -18,6 +18,7 @@ from app.errors import DegenerateGeometryError
 from app.geometry import rot_z
 from app.resources import STATIC
 from tests.calibration.drawing import captures, touches
+from tests.source import parsed
 from tests.translations import unlike
 
 OTHERS = [language for language in TEXTS.languages if language != FALLBACK]
@@ -30,7 +31,7 @@ def calls(*names):
     for path in sorted(CODE.rglob("*.py")):
         if path.is_relative_to(CODE / "base"):  # has a family of its own
             continue
-        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        for node in ast.walk(parsed(path)):
             if isinstance(node, ast.Call) and getattr(node.func, "id", "") in names:
                 yield path.name, node
 
@@ -67,13 +68,20 @@ def test_every_sentence_the_code_asks_for_is_there():
     "prefix, files",
     [
         ("page", ["text.py"]),
-        ("sheet", ["report/page.py", "report/pictures.py", "report/cell_picture.py"]),
+        (
+            "sheet",
+            ["report/page.py", "report/pictures.py", "report/cell_picture.py", "report/templates/sheet.html"],
+        ),
     ],
 )
 def test_every_sentence_the_pages_ask_for_is_there_and_none_is_left_over(prefix, files):
     asked = set()
     for file in files:
-        for node in ast.walk(ast.parse((CODE / file).read_text(encoding="utf-8"))):
+        text = (CODE / file).read_text(encoding="utf-8")
+        if file.endswith(".html"):
+            asked |= set(re.findall(r"\bt\(\"(\w+)\"", text))
+            continue
+        for node in ast.walk(ast.parse(text)):
             if isinstance(node, ast.Constant) and isinstance(node.value, str):
                 asked.add(node.value.removeprefix(f"{prefix}."))
     there = {key.partition(".")[2] for key in TEXTS.languages[FALLBACK] if key.startswith(f"{prefix}.")}

@@ -6,6 +6,7 @@ from app.diagnosis.result import (
     Alternative,
     Diagnosis,
     Evidence,
+    FamilyShare,
     Finding,
     Leftover,
     Noise,
@@ -59,7 +60,14 @@ def static_case(verdict: Verdict = "named", rows=60, seed=3):
         findings=found,
         outliers=(9, 26),
         leftover=Leftover(
-            0.43 if verdict in ("clean", "named") else 0.005, {"joint": 3, "driver": "own_angle"}
+            0.43 if verdict in ("clean", "named") else 0.005,
+            {"joint": 3, "driver": "own_angle"},
+            0.0 if verdict in ("clean", "named") else 0.06,
+        ),
+        families=(
+            (FamilyShare("elasticity", 0.94, 0.171, (0,)), FamilyShare("unnamed", 0.02, 0.153))
+            if found
+            else ()
         ),
         next_poses=((0.1, -0.9, 1.2, 0.0, 0.5, 0.0), (1.4, -0.2, 0.3, 0.7, -0.5, 1.0)),
         seconds=0.31,
@@ -142,6 +150,7 @@ def motion_case(seconds=12.0, rate=100, seed=5):
         outliers=(),
         leftover=Leftover(0.31, {}),
         next_poses=(),
+        families=(FamilyShare("friction", 0.73, 1.02, (0,)), FamilyShare("events", 0.12, 0.57, (1,))),
         seconds=0.42,
         notes=("Speed by a zero-phase Butterworth filter, order 4, 12 Hz.",),
         evidence=Evidence(
@@ -155,5 +164,6 @@ def motion_case(seconds=12.0, rate=100, seed=5):
             drivers={f"speed of joint {j + 1} [deg/s]": np.degrees(qd[:, j]) for j in range(6)},
             kept=np.ones(m, bool),
             t=t,
+            parts={"friction": rub, "events": push},
         ),
     )

@@ -7,12 +7,12 @@ from types import SimpleNamespace
 
 import pytest
 
-from app.diagnosis.judging import BARE, MASSES, WITH
+from app.diagnosis.judging import BARE, WITH
 from app.diagnosis.report import as_page
 from app.diagnosis.report.picture_words import in_language
 from app.diagnosis.result import Diagnosis, Judged, Quality
 from app.kinematics import load_robot
-from app.pendant.screens._compare.giving import send_report
+from app.screens._compare.giving import send_report
 from tests.diagnosis.report.cases import compliance, motion_case, static_case
 
 COMMAND = "teachframe diagnose x.csv --report x.html"
@@ -44,7 +44,7 @@ REMARKS = {
 
 def every_section() -> dict[str, Diagnosis]:
     """Diagnoses that between them fill every section and every turn of phrase."""
-    steps = {BARE: Quality(1.0, 1.2, "mm"), MASSES: Quality(0.9, 0.8, "mm"), WITH: Quality(0.2, 0.21, "mm")}
+    steps = {BARE: Quality(1.0, 1.2, "mm"), WITH: Quality(0.2, 0.21, "mm")}
     torques = {BARE: Quality(1.0, 1.2, "Nm"), WITH: Quality(0.2, 0.21, "Nm")}
     alone = dataclasses.replace(compliance(), alternatives=())
     return {
@@ -56,8 +56,10 @@ def every_section() -> dict[str, Diagnosis]:
         "motion": motion_case(),
         "motion judged": dataclasses.replace(motion_case(), judged=Judged("", torques)),
         "judged": dataclasses.replace(static_case(), judged=Judged("learnt.json", steps)),
-        "many": dataclasses.replace(static_case(), findings=(alone,) * 4, outliers=tuple(range(5, 60))),
-        "no finding": dataclasses.replace(motion_case(), findings=()),
+        "many": dataclasses.replace(
+            static_case(), findings=(alone,) * 4, families=(), outliers=tuple(range(5, 60))
+        ),
+        "no finding": dataclasses.replace(motion_case(), findings=(), families=()),
     }
 
 
@@ -90,7 +92,7 @@ def test_the_chinese_page_leaves_no_english_of_its_own(name, robot):
 
 
 def test_what_looks_for_english_finds_it():
-    assert "What is left over" in english(said(page(static_case())))
+    assert "What was left out" in english(said(page(static_case())))
 
 
 def test_english_is_what_a_page_speaks_without_being_told():
@@ -117,12 +119,12 @@ def test_a_label_made_of_two_is_said_whole_and_an_unknown_one_stays():
     assert in_language("phase of the moon", "zh") == "phase of the moon"
 
 
-@pytest.mark.parametrize(("language", "head"), [("en", "What is left over"), ("zh", "还剩什么")])
+@pytest.mark.parametrize(("language", "head"), [("en", "What was left out"), ("zh", "描述遗漏了什么")])
 def test_the_pendant_hands_the_report_out_in_the_operators_language(tmp_path, language, head):
     sent = {}
     pendant = SimpleNamespace(
         language=language,
-        client=SimpleNamespace(send_file_download=lambda name, content, **_: sent.update({name: content})),
+        send=lambda name, content: sent.update({name: content}),
         say=lambda *_: None,
         t=lambda key, **_: key,
     )

@@ -17,7 +17,7 @@ def test_every_word_is_there_in_every_language_with_its_fields():
 
 
 def test_every_effect_has_a_name_in_every_language():
-    for family in ("static", "motion"):
+    for family in ("kinematic", "dynamic"):
         for key in catalog.members(f"app.diagnosis.effects.{family}", "EFFECT"):
             assert WORDS.has(f"effect.{key}"), key
             assert HAN.search(effect_title(key, "zh")), key

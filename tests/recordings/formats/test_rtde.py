@@ -61,3 +61,57 @@ def test_whatever_stands_in_the_file_it_is_one_line_or_a_table(tmp_path, noise, 
             table.tolerant("t")
     except InputError as error:
         assert "\n" not in str(error)
+
+
+def _columns(path, names, *, mark=" ", end="\n", rows=30):
+    """Column `name` of row i holds i + 0.001 * what NAMES says its number is; a name that is none of ours holds 99."""
+    values = {name: 0.001 * k for k, name in enumerate(NAMES)}
+    lines = [mark.join(names)]
+    lines += [
+        mark.join(f"{i + values[name]:.3f}" if name in values else "99" for name in names)
+        for i in range(rows)
+    ]
+    path.write_bytes((end.join(lines) + end).encode())
+    return read_table(path)
+
+
+def _same(table):
+    for name in ("actual_q_0", "actual_q_5", "actual_qd_3", "actual_current_2"):
+        rtde, _, joint = name.rpartition("_")
+        quantity = {"actual_q": "q", "actual_qd": "qd", "actual_current": "i"}[rtde] + str(int(joint) + 1)
+        expected = np.arange(30) + 0.001 * NAMES.index(name)
+        assert table.number(quantity) == pytest.approx(expected, abs=1e-9), name
+    assert table.number("t") == pytest.approx(np.arange(30))
+
+
+@pytest.mark.parametrize("mark", [" ", ",", ";", "\t"])
+def test_a_variable_that_was_asked_for_twice_counts_once(tmp_path, mark):
+    _same(_columns(tmp_path / "a.csv", [*NAMES, "actual_q_0", "actual_q_5", "timestamp"], mark=mark))
+
+
+@pytest.mark.parametrize("mark", [" ", ",", ";", "\t"])
+def test_columns_between_and_before_ours_are_passed_over(tmp_path, mark):
+    names = ["time", "_id", *NAMES[:4], "payload", "robot_mode", *NAMES[4:], "speed_scaling"]
+    _same(_columns(tmp_path / "a.csv", names, mark=mark))
+
+
+def test_any_order_of_the_columns_is_the_same_log(tmp_path):
+    for seed in range(3):
+        _same(_columns(tmp_path / "a.csv", list(np.random.default_rng(seed).permutation(NAMES))))
+
+
+@pytest.mark.parametrize("end", ["\n", "\r\n", "\r"])
+@pytest.mark.parametrize("rows", [30, 2000])  # beyond the first 64 KiB too
+def test_lines_may_end_as_any_machine_ends_them(tmp_path, end, rows):
+    table = _columns(tmp_path / "a.csv", NAMES, end=end, rows=rows)
+    assert len(table) == rows
+    assert table.number("q3")[-1] == pytest.approx(rows - 1 + 0.001 * NAMES.index("actual_q_2"))
+
+
+def test_lines_that_are_no_rows_end_the_reading_where_they_outnumber_the_rows(tmp_path):
+    path = tmp_path / "a.csv"
+    _columns(path, NAMES)
+    with path.open("ab") as file:
+        file.write(b"x\n" * 300_000)
+    with pytest.raises(InputError, match="rows that do not fit the header"):
+        read_table(path)

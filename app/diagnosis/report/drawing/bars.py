@@ -1,31 +1,35 @@
-"""Before and after as two pairs of bars against the noise floor."""
+"""Before, after and, where a model was given, with it: bars against the noise floor."""
 
 from __future__ import annotations
 
 import math
 
+from app.diagnosis.judging import WITH
 from app.diagnosis.report.drawing import svg
 from app.diagnosis.report.drawing.axes import tick_text, ticks
 from app.diagnosis.report.wording import measure
 from app.diagnosis.result import Diagnosis
 
-WIDTH, LEFT, RIGHT, BAR, GAP = 680.0, 92.0, 70.0, 15.0, 16.0
+WIDTH, LEFT, RIGHT, BAR, GAP = 680.0, 92.0, 70.0, 15.0, 12.0
 
 
 def before_after_bars(diagnosis: Diagnosis, *, width: float = WIDTH) -> str:
-    """Error on fitted and held-out rows, before and after; a dashed line where the noise lies."""
+    """Error on fitted and held-out rows, side by side; a dashed line where the noise lies."""
     d = diagnosis
     unit = d.before.unit
+    states = [(d.before, "fill-before"), (d.after, "fill-after")]
+    if d.judged is not None and WITH in d.judged.steps and d.judged.steps[WITH].unit == unit:
+        states.append((d.judged.steps[WITH], "fill-given"))
     rows = (
-        ("rows fitted", d.before.fit_rms, d.after.fit_rms),
-        ("rows held out", d.before.heldout_rms, d.after.heldout_rms),
+        ("rows fitted", [(s.fit_rms, klass) for s, klass in states]),
+        ("rows held out", [(s.heldout_rms, klass) for s, klass in states]),
     )
     # The noise is that of one component and comparable only in the same unit.
     noise = d.noise.value if d.noise.unit == unit and math.isfinite(d.noise.value) else None
-    values = [v for _, *pair in rows for v in pair if v is not None and math.isfinite(v)]
+    values = [v for _, bars in rows for v, _ in bars if v is not None and math.isfinite(v)]
     top = max([*values, noise or 0.0, 1e-12]) * 1.02
     scale = (width - LEFT - RIGHT) / top
-    height = 2 * (2 * BAR + GAP) + 34
+    height = 2 * (len(states) * BAR + GAP) + 34
     out = []
     bottom = height - 26
     for value in ticks(0.0, top, 5):
@@ -34,18 +38,13 @@ def before_after_bars(diagnosis: Diagnosis, *, width: float = WIDTH) -> str:
         out.append(svg.text(x, bottom + 12, tick_text(value), klass="tick mid"))
     out.append(svg.text(width - RIGHT + 6, bottom + 12, unit, klass="label"))
     y = 10.0
-    for label, before, after in rows:
-        out.append(svg.text(LEFT - 8, y + BAR + 3, label, klass="label end"))
-        for value, klass in ((before, "fill-before"), (after, "fill-after")):
+    for label, bars in rows:
+        out.append(svg.text(LEFT - 8, y + len(bars) * BAR / 2 + 2, label, klass="label end"))
+        for value, klass in bars:
             if value is not None and math.isfinite(value):
-                out.append(
-                    svg.tag("rect", klass=klass, x=LEFT, y=y, width=max(value * scale, 1), height=BAR - 2)
-                )
-                out.append(
-                    svg.text(
-                        LEFT + max(value * scale, 1) + 5, y + BAR - 5, measure(value, unit), klass="value"
-                    )
-                )
+                wide = max(value * scale, 1)
+                out.append(svg.tag("rect", klass=klass, x=LEFT, y=y, width=wide, height=BAR - 2))
+                out.append(svg.text(LEFT + wide + 5, y + BAR - 5, measure(value, unit), klass="value"))
             y += BAR
         y += GAP
     if noise is not None:

@@ -24,6 +24,11 @@ def text(x: float, y: float, words: str, **attributes: object) -> str:
     return tag("text", escape(words), x=x, y=y, **attributes)
 
 
+def escaped(words: str) -> str:
+    """Words as the content of an element."""
+    return escape(words)
+
+
 def picture(width: float, height: float, content: Iterable[str], title: str) -> str:
     """A whole picture that scales with the page; `title` is read to those who cannot see it."""
     inside = "".join(content)
@@ -57,6 +62,15 @@ def segments(x0: np.ndarray, y0: np.ndarray, x1: np.ndarray, y1: np.ndarray, kla
     """Many separate strokes as one path."""
     path = "".join(f"M{a:.1f} {b:.1f}L{c:.1f} {d:.1f}" for a, b, c, d in zip(x0, y0, x1, y1, strict=True))
     return f'<path class="{klass}" d="{path}"/>' if path else ""
+
+
+def area(x: np.ndarray, low: np.ndarray, high: np.ndarray, fill: str) -> str:
+    """What lies between two lines, as one path; nothing where they are the same throughout."""
+    if not np.any(np.abs(high - low) > 0.05):
+        return ""
+    there = " ".join(f"{a:.1f} {b:.1f}" for a, b in zip(x, high, strict=True))
+    back = " ".join(f"{a:.1f} {b:.1f}" for a, b in zip(x[::-1], low[::-1], strict=True))
+    return tag("path", d=f"M{there} L{back}Z", fill=fill)
 
 
 def clipped(left: float, top: float, width: float, height: float, content: Iterable[str]) -> tuple[str, str]:

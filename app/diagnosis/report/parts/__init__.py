@@ -1,1 +1,1 @@
-"""One file a section of the page; each gives HTML, or nothing where it has nothing to say."""
+"""One file a section of the page: what stands in it, as plain texts and numbers, given to its template."""

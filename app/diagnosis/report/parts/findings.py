@@ -1,15 +1,17 @@
-"""One card a finding: where, what, how much, how sure, what else it could be."""
+"""What was left out, by family: each law with place, value, share, certainty and what else it could be."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from html import escape
+from typing import Any
 
-from app.diagnosis.report.parts.case import Case, section, table
+from markupsafe import Markup
+
+from app.diagnosis.report.budget import budget, family_name, folded_sentence, law_share, percent, shown
+from app.diagnosis.report.drawing.palette import OTHER, colour
+from app.diagnosis.report.parts.case import Case
 from app.diagnosis.report.wording import (
-    digits,
     effect_title,
-    fall,
     finding_law,
     finding_sentence,
     measure,
@@ -17,81 +19,64 @@ from app.diagnosis.report.wording import (
     place,
     probability,
     quantity,
+    rivals,
 )
 from app.diagnosis.result import Finding
 
-#: With more findings than this a table of all of them stands first.
-_A_FEW = 3
 
-
-def findings(case: Case) -> str:
-    """The cards, in the order of the findings; a table first where there are many."""
-    d = case.diagnosis
-    cards = [_card(case, n, f, d.after.unit) for n, f in enumerate(d.findings, 1)]
-    if len(cards) <= _A_FEW:
-        return section(case.t("title.findings"), *cards)
-    overview = _overview(case, d.findings, d.after.unit)
-    return section(case.t("title.findings"), overview) + section(case.t("title.one_by_one"), *cards)
-
-
-def _overview(case: Case, found: Sequence[Finding], unit: str) -> str:
-    heads = (
-        "",
-        *(case.t(f"found.{key}") for key in ("effect", "where", "value")),
-        case.t("found.heldout_without", unit=unit),
-    )
-    rows = [
-        (
-            str(n),
-            effect_title(f.effect, case.language),
-            place(f.where, case.language),
-            quantity(f.parameters[0], case.language) if f.parameters else "",
-            measure(f.heldout_rms_without, f.heldout_unit)
-            if f.heldout_unit
-            else digits(f.heldout_rms_without),
-        )
-        for n, f in enumerate(found, 1)
+def findings(case: Case) -> Markup | str:
+    """Families in the budget's order, their laws beneath; small laws folded."""
+    of = budget(case.diagnosis)
+    groups = [
+        _group(case, s.members, s.small)
+        | {
+            "name": family_name(s.family, case.language),
+            "amount": measure(s.amount, of.unit),
+            "share": case.t("found.comes_back", share=percent(s.share)),
+            "colour": colour(s.family),
+        }
+        for s in shown(of)
     ]
-    return table(heads, rows, numbers=(3, 4))
-
-
-def _card(case: Case, number: int, f: Finding, unit: str) -> str:
-    unit, language = f.heldout_unit or unit, case.language
-    values = "".join(
-        f"<dt>{escape(parameter_name(p.name, language))}</dt><dd><b>{escape(quantity(p, language))}</b></dd>"
-        for p in f.parameters
-    )
-    if f.equation:
-        values += f'<dt>{case.t("found.law")}</dt><dd class="law">{escape(finding_law(f, language))}</dd>'
-    smaller = fall(f.heldout_rms_without, f.heldout_rms_with, language)
-    without = case.t("found.without_it", error=measure(f.heldout_rms_without, unit))
-    with_it = case.t("found.with_it", error=measure(f.heldout_rms_with, unit))
-    held = f"{escape(without)}<br>{escape(with_it)}{f' ({smaller})' if smaller else ''}"
-    share = max(0.0, min(1.0, f.visible))
-    sure = (
-        f"<dt>{case.t('found.certainty')}</dt><dd>{escape(probability(f.p_value, language))}</dd>"
-        f"<dt>{case.t('found.visible')}</dt>"
-        f'<dd><span class="meter"><i style="width:{share:.0%}"></i></span>{share:.0%}</dd>'
-        f"<dt>{case.t('found.held_out')}</dt><dd>{held}</dd>"
-        + ("" if f.alternatives else f"<dt>{case.t('found.others')}</dt><dd>{case.t('found.no_other')}</dd>")
-    )
-    return (
-        f'<div class="card"><div class="top"><span class="no">{number}</span>'
-        f"<h3>{escape(effect_title(f.effect, language))}</h3>"
-        f'<span class="where">{escape(place(f.where, language))}</span></div>'
-        f'<p class="say">{escape(finding_sentence(f, language))}</p>'
-        f'<div class="facts"><dl>{values}</dl><dl>{sure}</dl></div>{_alternatives(case, f)}</div>'
-    )
-
-
-def _alternatives(case: Case, f: Finding) -> str:
-    said = case.t("found.between").join(
-        case.t(
-            "found.alternative",
-            effect=effect_title(a.effect, case.language),
-            where=place(a.where, case.language),
-            delta=f"{a.delta_bic:+.1f}",
+    if of.others:
+        said = family_name("others", case.language)
+        groups.append(
+            _group(case, of.others, ()) | {"name": said, "amount": "", "share": "", "colour": OTHER}
         )
-        for a in f.alternatives
-    )
-    return f'<p class="alt">{escape(case.t("found.not_ruled_out", what=said))}</p>' if said else ""
+    return case.section("findings.html", groups=groups) if groups else ""
+
+
+def _group(case: Case, members: Sequence[int], small: Sequence[int]) -> dict[str, Any]:
+    found = case.diagnosis.findings
+    count = len(members) + len(small)
+    return {
+        "members": [_law(case, k + 1, found[k]) for k in members],
+        "small": [_law(case, k + 1, found[k]) for k in small],
+        "laws": list(
+            dict.fromkeys(_equation(case, found[k]) for k in (*members, *small) if found[k].equation)
+        ),
+        "folded": folded_sentence(len(small), case.language),
+        "count": case.t("found.one_law" if count == 1 else "found.laws", count=count) if count else "",
+        "open": bool(members),
+    }
+
+
+def _equation(case: Case, f: Finding) -> str:
+    """Its effect and the law, said once for all of a family."""
+    return f"{effect_title(f.effect, case.language)}: {finding_law(f, case.language)}"
+
+
+def _law(case: Case, number: int, f: Finding) -> dict[str, Any]:
+    language, unit = case.language, f.heldout_unit or case.diagnosis.after.unit
+    others = rivals(f, language)
+    return {
+        "number": number,
+        "effect": effect_title(f.effect, language),
+        "where": place(f.where, language),
+        "sentence": finding_sentence(f, language),
+        "others": case.t("found.not_ruled_out", what=others) if others else "",
+        "given": [(parameter_name(p.name, language), quantity(p, language)) for p in f.parameters],
+        "share": percent(law_share(f, case.diagnosis)),
+        "held": f"{measure(f.heldout_rms_without, unit)} → {measure(f.heldout_rms_with, unit)}",
+        "visible": f"{max(0.0, min(1.0, f.visible)):.0%}",
+        "p": probability(f.p_value, language),
+    }

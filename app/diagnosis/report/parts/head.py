@@ -2,13 +2,28 @@
 
 from __future__ import annotations
 
-from html import escape
 from pathlib import Path
 
-from app.diagnosis.report.drawing.bars import before_after_bars
-from app.diagnosis.report.parts.case import Case, figure, key, mark
-from app.diagnosis.report.wording import fall, measure, noise_source, verdict_sentence
+from markupsafe import Markup
+
+from app.diagnosis.report.parts.case import Case
+from app.diagnosis.report.wording import verdict_sentence
 from app.diagnosis.wording import WORDS
+
+
+def head(case: Case, date: str) -> Markup:
+    """Title and verdict."""
+    d = case.diagnosis
+    kind = f"kind.{d.kind}"
+    kind = case.t(kind) if WORDS.has(f"page.{kind}") else d.kind
+    return case.section(
+        "head.html",
+        date=date,
+        name=Path(d.file).name,
+        meta=case.t("meta", kind=kind, samples=d.samples, robot=_robot(case)),
+        verdict=d.verdict,
+        sentence=verdict_sentence(d, case.language),
+    )
 
 
 def _robot(case: Case) -> str:
@@ -16,24 +31,3 @@ def _robot(case: Case) -> str:
     if case.robot is None:
         return case.diagnosis.robot
     return case.robot.title if case.robot.description else case.robot.path.name
-
-
-def head(case: Case, date: str) -> str:
-    """Title, verdict and the bars."""
-    d = case.diagnosis
-    kind = f"kind.{d.kind}"
-    kind = case.t(kind) if WORDS.has(f"page.{kind}") else d.kind
-    meta = case.t("meta", kind=kind, samples=d.samples, robot=_robot(case))
-    source = noise_source(d.noise.source, case.language)
-    noise = case.t("noise", value=measure(d.noise.value, d.noise.unit), source=source)
-    marks = mark("n", noise) if d.noise.unit == d.before.unit else ""
-    smaller = fall(d.before.heldout_rms, d.after.heldout_rms, case.language)
-    caption = case.t("caption.fall", fall=smaller) if d.findings and smaller else case.t("caption.error")
-    verdict = f"<b>{case.t(f'verdict.{d.verdict}')}</b>{escape(verdict_sentence(d, case.language))}"
-    return (
-        f'<header><div class="brand"><span>{case.t("brand")}</span>'
-        f"<span>{escape(date)}</span></div>"
-        f"<h1>{escape(Path(d.file).name)}</h1><div class='meta'>{escape(meta)}</div></header>"
-        f'<div class="verdict {d.verdict}">{verdict}</div>'
-        + figure(key(case, marks) + case.picture(before_after_bars(d)), caption)
-    )

@@ -13,8 +13,8 @@ from app.errors import InputError
 from app.units import SI_FACTORS
 
 #: Options that say where; the rest are sizes.
-PLACES = ("joint", "source_joint", "link", "axis", "driver", "from_row", "from_s", "to_s")
-WHOLE = ("joint", "source_joint", "link", "from_row")
+PLACES = ("joint", "source_joint", "link", "axis", "driver", "order", "from_row", "from_s", "to_s")
+WHOLE = ("joint", "source_joint", "link", "order", "from_row")
 
 
 @dataclass(frozen=True)
@@ -48,6 +48,12 @@ class Term:
 
     def times(self, factor: float) -> Term:
         return replace(self, parameters={k: v * factor for k, v in self.parameters.items()})
+
+
+def same_place(a: Term, b: Term) -> bool:
+    """The same law at the same place; a step's row does not count, and one wave a turn goes without saying."""
+    told = [{"order": 1, **term.where, "from_row": 0} for term in (a, b)]
+    return a.effect == b.effect and told[0] == told[1]
 
 
 class Law(Protocol):

@@ -28,13 +28,16 @@ class Motion:
         arm: as it is; described: as its description has it.
         path: gives position, speed and acceleration (m, n) at any times (m,).
         t: (m,) [s] when samples are taken.
-        load_kg, load_at: declared load.
+        standstill: speed below which dry friction fades into rest, of all joints or of each (n,) [rad/s or m/s].
+        fading: how it does: "tanh" or "arctan".
     """
 
     arm: Arm
     described: Arm
     path: Path
     t: np.ndarray
+    standstill: float | np.ndarray = STANDSTILL
+    fading: str = "tanh"
 
     @property
     def m(self) -> int:
@@ -65,7 +68,8 @@ class Motion:
     @cached_property
     def direction(self) -> np.ndarray:
         """(m, n) sign of the speed, fading to 0 at standstill."""
-        return np.tanh(self.qd / STANDSTILL)
+        rate = self.qd / self.standstill
+        return np.tanh(rate) if self.fading == "tanh" else np.arctan(0.5 * np.pi * rate) * 2.0 / np.pi
 
     @cached_property
     def warmth(self) -> np.ndarray:
@@ -84,7 +88,7 @@ class World:
     Args:
         torque: (m, n) on top of rigid bodies [Nm].
         gravity: (3,) [m/s^2] in base.
-        loads: masses (m,) [kg] with their place in the flange (3,) [m].
+        loads: masses (m,) [kg] with their place (3,) [m] in the flange, or in the frame of a link (from 0).
         load_friction: (n,) share of the carried torque that rubs.
         gain: (n,) factor on the recorded torque.
         delay: how late torques are recorded [s].
@@ -94,7 +98,7 @@ class World:
     gravity: np.ndarray
     load_friction: np.ndarray
     gain: np.ndarray
-    loads: list[tuple[np.ndarray, np.ndarray]] = field(default_factory=list)
+    loads: list[tuple[np.ndarray, np.ndarray, int | None]] = field(default_factory=list)
     delay: float = 0.0
 
 
@@ -116,17 +120,21 @@ def drive_torques(cell: Motion, terms: Sequence[Term]) -> np.ndarray:
     tilted = bool(np.any(world.gravity != GRAVITY))
     rigid = moving_torques(cell.arm, *cell.state, gravity=world.gravity) if tilted else cell.rigid
     carried = rigid
-    for mass, at in world.loads:
-        full = moving_torques(cell.arm, *cell.state, gravity=world.gravity, load_kg=1.0, load_at=at)
+    for mass, at, link in world.loads:
+        full = moving_torques(
+            cell.arm, *cell.state, gravity=world.gravity, load_kg=1.0, load_at=at, load_link=link
+        )
         carried = carried + mass[:, None] * (full - rigid)
     rubbing = world.load_friction * np.abs(carried) * cell.direction
     return (carried + world.torque + rubbing) * world.gain
 
 
-def flange_force_torques(cell: Motion) -> np.ndarray:
-    """(m, n, 3) torque per newton with which the flange pushes on the world."""
+def wrench_torques(cell: Motion, force: np.ndarray, moment: np.ndarray) -> np.ndarray:
+    """(m, n) torque [Nm] while the flange pushes on the world with a force (3,) [N] and turns it with a moment (3,)
+    [Nm] about its origin, both in base axes."""
     where = stance(cell.arm, cell.q)
-    return np.swapaxes(point_jacobian(cell.arm, where, where.flange_places), 1, 2)
+    pushing = np.swapaxes(point_jacobian(cell.arm, where, where.flange_places), 1, 2) @ force
+    return pushing + np.where(cell.arm.slides, 0.0, where.axes @ moment)
 
 
 def effect_on_torques(cell: Motion, terms: Sequence[Term], term: Term) -> np.ndarray:

@@ -127,10 +127,12 @@ def places(thin: Thin) -> Iterator[Term]:
             options["joint"] = range(1, n + 1)
         if "source_joint" in law.places:
             options["source_joint"] = range(1, n + 1)
+        if "link" in law.places:  # none: where it sits if nothing is asked for
+            options["link"] = [*([None] if key == "payload" else []), *range(1, n + 1)]
         if key in DRIVERS:
             options["driver"] = DRIVERS[key]
         for chosen in product(*options.values()):
-            asked = dict(zip(options, chosen, strict=True))
+            asked = {k: v for k, v in zip(options, chosen, strict=True) if v is not None}
             if asked.get("source_joint", 0) == asked.get("joint", -1):
                 continue
             try:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -24,6 +24,7 @@ RATED = 100.0  # Nm where a description states no effort
 ENCODER = 2.0e-6  # rad or m: one step
 SPEED_SIGMA = 5.0e-4  # rad/s
 GAIN = (6.0, 14.0)  # Nm/A
+SPIKE = (8.0, 40.0)  # of the noise
 
 
 @dataclass(frozen=True)
@@ -42,6 +43,12 @@ class MotionPlan:
         jitter: uneven sampling, as a share of the step.
         strength: what an effect does, in units of the noise where it acts most, where it is left open.
         friction: share of rated torque of dry and of viscous friction in every joint (clutter); 0 for none.
+        sharpness: (low, high) between which the speed is drawn below which dry friction fades [rad/s], a joint;
+            empty: as everywhere. `fading`: see cell.py.
+        spikes: share of torque readings that are off by ten sigma or so.
+        stale: share of samples that repeat the one before.
+        gaps: how many pieces of a few samples are missing.
+        staircase: step of the recorded speed [rad/s]; 0 for none.
     """
 
     samples: int = 4000
@@ -56,6 +63,12 @@ class MotionPlan:
     jitter: float = 0.0
     strength: float = 4.0
     friction: float = 0.0
+    sharpness: tuple[float, ...] = ()
+    fading: str = "tanh"
+    spikes: float = 0.0
+    stale: float = 0.0
+    gaps: int = 0
+    staircase: float = 0.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -102,14 +115,7 @@ def make_motion(
     Raises:
         InputError: an effect that this arm or log cannot carry.
     """
-    m, n = plan.samples, arm.n
-    seconds = m / plan.rate
-    path = draw_path(arm, seconds, rng, repeats=plan.repeats)
-    t = np.arange(m) / plan.rate
-    if plan.jitter:
-        t = t + plan.jitter / plan.rate * rng.uniform(-0.5, 0.5, m)
-        t = t - t[0]
-    cell = Motion(arm, described, path, np.round(t, 6))
+    cell = draw_motion_cell(plan, arm, described, rng)
     rated = np.where(arm.effort > 0, arm.effort, RATED)
     sigma = plan.noise * rated
     everywhere = _frictions(cell, rated, plan.friction, rng) if plan.friction else []
@@ -120,20 +126,58 @@ def make_motion(
         if open_strength:
             term = scaled_to(cell, [*everywhere, *terms], term, sigma, plan.strength)
         terms.append(term)
+    return record(plan, cell, terms, everywhere, sigma, rng)
+
+
+def draw_motion_cell(plan: MotionPlan, arm: Arm, described: Arm, rng: np.random.Generator) -> Motion:
+    """A motion without effects."""
+    m = plan.samples
+    path = draw_path(arm, m / plan.rate, rng, repeats=plan.repeats)
+    t = np.arange(m) / plan.rate
+    if plan.jitter:
+        t = t + plan.jitter / plan.rate * rng.uniform(-0.5, 0.5, m)
+        t = t - t[0]
+    cell = Motion(arm, described, path, np.round(t, 6), fading=plan.fading)
+    if plan.sharpness:
+        low, high = np.log(plan.sharpness)
+        cell = replace(cell, standstill=np.exp(rng.uniform(low, high, arm.n)))
+    return cell
+
+
+def record(
+    plan: MotionPlan,
+    cell: Motion,
+    terms: Sequence[Term],
+    everywhere: Sequence[Term],
+    sigma: np.ndarray,
+    rng: np.random.Generator,
+    *,
+    raw: bool = True,
+) -> MadeMotion:
+    """The log of a motion with these effects in it.
+
+    Args:
+        everywhere: effects that nobody asked for.
+        sigma: (n,) noise [Nm].
+        raw: also tell what each effect does alone.
+    """
+    m, n = cell.m, cell.arm.n
     both = [*everywhere, *terms]
     torque = drive_torques(cell, both)
-    raw = [np.sqrt(np.mean(effect_on_torques(cell, both, term) ** 2, axis=0)) for term in terms]
+    alone = [
+        np.sqrt(np.mean(effect_on_torques(cell, both, term) ** 2, axis=0)) for term in (terms if raw else [])
+    ]
     noise = draw_noise(rng, (m, n), 1.0, plan.noise_kind) * sigma
     gains = np.round(rng.uniform(*GAIN, n), 3)
     late = answered_late(terms, n)
-    asked = [path(cell.t + s)[0][:, j] for j, s in enumerate(late)] if late.any() else []
-    warm = 25.0 + 12.0 * (1.0 - np.exp(-cell.t / (0.4 * seconds)))
-    return MadeMotion(
+    asked = [cell.path(cell.t + s)[0][:, j] for j, s in enumerate(late)] if late.any() else []
+    warm = 25.0 + 12.0 * (1.0 - np.exp(-cell.t / (0.4 * m / plan.rate)))
+    made = MadeMotion(
         plan=plan,
         cell=cell,
         terms=tuple(terms),
         everywhere=tuple(everywhere),
-        raw_rms=np.array(raw).reshape(len(terms), n),
+        raw_rms=np.array(alone).reshape(-1, n),
         sigma=sigma,
         q=ENCODER * np.rint(cell.q / ENCODER),
         qd=cell.qd + SPEED_SIGMA * rng.normal(size=(m, n)),
@@ -141,6 +185,30 @@ def make_motion(
         temperature=warm[:, None] + rng.normal(0, 0.05, (m, n)),
         gains=gains,
         commanded=np.stack(asked, axis=1) if asked else None,
+    )
+    return dirtied(made, rng) if plan.spikes or plan.stale or plan.gaps or plan.staircase else made
+
+
+def dirtied(made: MadeMotion, rng: np.random.Generator) -> MadeMotion:
+    """The log as a poor recorder keeps it: spikes, samples that repeat the one before, gaps, speeds in steps."""
+    plan, (m, n) = made.plan, made.q.shape
+    torque, q, qd = made.torque.copy(), made.q.copy(), made.qd.copy()
+    wrong = rng.random((m, n)) < plan.spikes
+    size = rng.choice([-1.0, 1.0], (m, n)) * rng.uniform(*SPIKE, (m, n))
+    torque += wrong * size * made.sigma
+    if plan.staircase:
+        qd = plan.staircase * np.rint(qd / plan.staircase)
+    for i in np.flatnonzero(rng.random(m - 1) < plan.stale) + 1:
+        torque[i], q[i], qd[i] = torque[i - 1], q[i - 1], qd[i - 1]
+    kept = np.ones(m, bool)
+    for _ in range(plan.gaps):
+        begin = int(rng.integers(m // 10, m - m // 10))
+        kept[begin : begin + int(rng.integers(3, 60))] = False
+    cell = replace(made.cell, t=made.cell.t[kept])
+    asked = None if made.commanded is None else made.commanded[kept]
+    warm = made.temperature[kept]
+    return replace(
+        made, cell=cell, torque=torque[kept], q=q[kept], qd=qd[kept], temperature=warm, commanded=asked
     )
 
 

@@ -7,10 +7,10 @@ from functools import lru_cache
 
 import numpy as np
 
-from app.proof.generator.effects.term import Term
+from app.proof.generator.effects.term import Term, same_place
 from app.proof.generator.motion.columns import Thin, inertial_columns, places, term_columns, thinned
 from app.proof.generator.motion.making import MadeMotion
-from app.proof.generator.static.visibility import Visibility, alike, gap_of, same_place
+from app.proof.generator.static.visibility import Visibility, alike, gap_of
 
 
 class Believed:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -9,10 +10,10 @@ from app.proof.generator.files import joint_columns, term_json, write_csv
 from app.proof.generator.motion.making import MadeMotion
 
 
-def write_motion(made: MadeMotion, path: Path, robot: str) -> None:
-    """The CSV of a motion recording; `robot` is what its header names."""
+def write_motion(made: MadeMotion, path: Path, robot: str, more: Mapping[str, str] | None = None) -> None:
+    """The CSV of a motion recording; `robot` is what its header names, with `more` beside it."""
     plan, cell = made.plan, made.cell
-    header: dict[str, Any] = {"kind": "motion", "robot": robot}
+    header: dict[str, Any] = {"kind": "motion", "robot": robot, **(more or {})}
     if plan.currents:
         header["drive_gain_Nm_per_A"] = "[" + ", ".join(f"{g:.3f}" for g in made.gains) + "]"
     if plan.stated:

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
 
 from app import catalog
 from app.proof.generator.arm import Arm, Stance, point_jacobian, stance
-from app.proof.generator.dynamics import holding_torques
+from app.proof.generator.dynamics import GRAVITY, holding_torques
 from app.proof.generator.effects.term import Term
 from app.proof.generator.rotations import turn_vector
 
@@ -43,6 +43,10 @@ class Cell:
         targets_known: True where the file tells their coordinates.
         compliance: (n,) declared [rad/Nm], or None.
         torque_sensors: True where the file has joint torques.
+        gravity: (3,) [m/s^2] in base; a base that leans has it elsewhere than the description.
+        settling: rows a step takes until it is whole.
+        approached: (m, n) sign of each joint's last move where rows do not follow each other directly; 0 where
+            the rows tell it.
     """
 
     kind: str
@@ -62,6 +66,9 @@ class Cell:
     targets_known: bool = False
     compliance: np.ndarray | None = None
     torque_sensors: bool = False
+    gravity: np.ndarray = field(default_factory=GRAVITY.copy)
+    settling: int = 0
+    approached: np.ndarray | None = None
 
     @property
     def m(self) -> int:
@@ -74,7 +81,9 @@ class Cell:
     @cached_property
     def holding(self) -> np.ndarray:
         """(m, n) torque that holds the arm with its declared load, at the positions shown."""
-        return holding_torques(self.arm, self.q, load_kg=self.load_kg, load_at=self.load_at)
+        return holding_torques(
+            self.arm, self.q, gravity=self.gravity, load_kg=self.load_kg, load_at=self.load_at
+        )
 
     @cached_property
     def last_move(self) -> np.ndarray:
@@ -85,6 +94,8 @@ class Cell:
                 continue
             step = np.sign(self.q[i] - self.q[i - 1])
             sign[i] = np.where(step == 0, sign[i - 1], step)
+            if self.approached is not None and self.approached[i].any():
+                sign[i] = self.approached[i]
         return sign
 
 
@@ -122,7 +133,7 @@ class World:
 
 def world_with(cell: Cell, terms: Sequence[Term]) -> World:
     """The world of a cell with these terms in it."""
-    world = _nothing(*cell.q.shape)
+    world = nothing(*cell.q.shape)
     _write(cell, terms, world)
     there = standing(cell, terms)
     for term in terms:
@@ -145,7 +156,7 @@ def standing(cell: Cell, terms: Sequence[Term]) -> Cell:
     if not any(term.effect == WRITTEN for term in terms):
         return cell
     m, n = cell.q.shape
-    world = _nothing(m, n)
+    world = nothing(m, n)
     _write(cell, terms, world)
     return cell.at(world.flipped * cell.q + world.dq)
 
@@ -158,7 +169,7 @@ def shown(cell: Cell, q: np.ndarray, terms: Sequence[Term]) -> Cell:
     return cell.at(q)
 
 
-def _nothing(m: int, n: int) -> World:
+def nothing(m: int, n: int) -> World:
     """A world without effects."""
     return World(
         np.zeros((m, n)),

@@ -30,6 +30,8 @@ AXES = {"link_length": ("a", "d"), "link_twist": ("alpha", "beta")}
 DRIVERS = {"backlash": ("approach", "gravity_torque")}
 WHOLE = ("wrong_convention",)  # there or not: has no strength that could be small
 STEPS = ("base_shift", "tool_slip", "joint_slip")
+#: Laws that follow time: of the library, only these can be taken for a step, or a step for them.
+IN_TIME = (*STEPS, "base_drift", "joint_drift", "thermal_growth")
 
 Change = Callable[[Cell, World, float], tuple[Cell, World]]
 
@@ -120,6 +122,12 @@ def places(made: Any) -> Iterator[Term]:
             yield term
             if key == "base_shift":  # what was knocked may have turned as well
                 yield replace(term, parameters={**term.parameters, "rx": 0.0, "ry": 0.0, "rz": 0.0})
+
+
+def follows_time(term: Term) -> bool:
+    """True of a law that a step could be taken for; of a law of no library nobody knows."""
+    known = term.effect in catalog.members(LAWS, "EFFECT")
+    return not known or term.effect in IN_TIME or "from_row" in term.where
 
 
 def _changes(cell: Cell, *, geometry: bool, known: bool) -> Iterator[Change]:

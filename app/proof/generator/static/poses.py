@@ -11,6 +11,8 @@ WIDEST = 2.7  # rad; cables and people do not like more
 EDGE = 0.92  # of the way to a limit
 FLOOR = -0.1  # m; the flange stays above
 REACHED = 1e-8  # m
+STARTS = 3  # at a time, for every touch that is wanted
+THERE = 1e-9  # m: the last step squares what is left
 TILT = np.cos(1.2)  # the tool leans at most this far from the way it first came
 
 
@@ -73,21 +75,30 @@ def _around(arm, tip, reference, count, rng):
     target = first.flange_places[0] + first.flange_rotations[0] @ tip
     came = first.flange_rotations[0, :, 2]
     starts = np.clip(q0 + rng.normal(0, 1.2, (12 * count, arm.n)) * np.where(arm.slides, 0.1, 1.0), low, high)
-    q = towards(arm, starts, tip, np.tile(target, (len(starts), 1)))
-    there = stance(arm, q)
-    reached = there.flange_places + there.flange_rotations @ tip
-    good = np.linalg.norm(reached - target, axis=1) < REACHED
-    good &= np.all((q > low) & (q < high), axis=1) & (there.flange_rotations[:, :, 2] @ came > TILT)
-    return q[good][:count], target
+    kept = np.empty((0, arm.n))
+    for some in np.split(starts, range(STARTS * count, len(starts), STARTS * count)):
+        q = towards(arm, some, tip, np.tile(target, (len(some), 1)))
+        there = stance(arm, q)
+        reached = there.flange_places + there.flange_rotations @ tip
+        good = np.linalg.norm(reached - target, axis=1) < REACHED
+        good &= np.all((q > low) & (q < high), axis=1) & (there.flange_rotations[:, :, 2] @ came > TILT)
+        kept = np.vstack([kept, q[good]])
+        if len(kept) >= count:
+            break
+    return kept[:count], target
 
 
-def towards(arm: Arm, q: np.ndarray, tip: np.ndarray, target: np.ndarray, steps: int = 40) -> np.ndarray:
+def towards(arm: Arm, q: np.ndarray, tip: np.ndarray, target: np.ndarray, steps: int = 20) -> np.ndarray:
     """Damped Newton steps that bring the tip to `target` (m, 3); rows that do not get there just stop."""
-    q = q.copy()
+    q, on_the_way = q.copy(), np.arange(len(q))
     for _ in range(steps):
-        where = stance(arm, q)
+        where = stance(arm, q[on_the_way])
         point = where.flange_places + where.flange_rotations @ tip
-        q += newton_step(point_jacobian(arm, where, point), target - point)
+        gap = target[on_the_way] - point
+        q[on_the_way] += newton_step(point_jacobian(arm, where, point), gap)
+        on_the_way = on_the_way[np.linalg.norm(gap, axis=1) > THERE]
+        if not len(on_the_way):
+            break
     return q
 
 

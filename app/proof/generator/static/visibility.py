@@ -8,10 +8,11 @@ from typing import Any
 
 import numpy as np
 
-from app.proof.generator.effects.term import Term
+from app.proof.generator.effects.term import Term, same_place
 from app.proof.generator.static.cell import world_with
 from app.proof.generator.static.columns import (
     STEPS,
+    follows_time,
     moved_reading,
     nuisance_columns,
     places,
@@ -76,7 +77,7 @@ def visibility(made: Made, index: int, *, geometry: bool, limit: float | None) -
         return Visibility(norm / np.sqrt(left.size), norm, norm, ())
     gaps = [
         {"effect": other.effect, "where": dict(other.where), "gap": gap, "free": len(other.parameters)}
-        for other, gap in _gaps(made, others, project, left)
+        for other, gap in _gaps(made, term, others, project, left)
         if not same_place(other, term)
     ]
     nearest = min((g["gap"] for g in gaps), default=norm)
@@ -126,10 +127,13 @@ def alike(
 
 
 def _gaps(
-    made: Made, others: Sequence[Term], project: Projector, left: np.ndarray
+    made: Made, term: Term, others: Sequence[Term], project: Projector, left: np.ndarray
 ) -> Iterator[tuple[Term, float]]:
-    """Every law at every place, steps at their best row, and what each leaves of the effect."""
+    """Every law at every place, steps at their best row where time matters, and what each leaves of the effect."""
+    late = follows_time(term)
     for candidate in places(made):
+        if candidate.effect in STEPS and not late:
+            continue
         columns = term_columns(made, others, candidate)
         if candidate.effect in STEPS:
             row, gap = _best_row(made.cell.m, columns, project, left)
@@ -158,9 +162,3 @@ def gap_of(columns: np.ndarray, left: np.ndarray) -> float:
         return float(np.linalg.norm(left))
     answer = np.linalg.lstsq(columns, left, rcond=1e-9)[0]
     return float(np.linalg.norm(left - columns @ answer))
-
-
-def same_place(a: Term, b: Term) -> bool:
-    """The same law at the same place; a step's row does not count."""
-    keys = (set(a.where) | set(b.where)) - {"from_row"}
-    return a.effect == b.effect and all(a.where.get(k) == b.where.get(k) for k in keys)

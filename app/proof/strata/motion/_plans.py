@@ -12,6 +12,8 @@ from app.proof.generator.motion.cell import LAWS
 from app.proof.generator.motion.making import MotionPlan
 
 FRICTION = ("coulomb_friction", "viscous_friction")
+#: Proven by the arms that are off everywhere: here every link is believed as it is described.
+ELSEWHERE = ("link_inertia",)
 
 
 def draw_plan(rng: np.random.Generator) -> MotionPlan:
@@ -32,5 +34,5 @@ def draw_plan(rng: np.random.Generator) -> MotionPlan:
 
 def draw_effect(rng: np.random.Generator, *, but: Sequence[str] = (), package: str = LAWS) -> Request:
     """One law of a package."""
-    keys = [k for k in catalog.members(package, "EFFECT") if k not in but]
+    keys = [k for k in catalog.members(package, "EFFECT") if k not in (*but, *ELSEWHERE)]
     return Request(keys[int(rng.integers(len(keys)))])

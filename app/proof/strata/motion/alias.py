@@ -18,7 +18,7 @@ class Alias:
 
     def draft(self, rng):
         scale = {"scale": float(rng.uniform(0.05, 0.15))}
-        return Draft(draw_plan(rng), [Request("torque_constant", {"joint": j}, scale) for j in range(1, 7)])
+        return Draft(draw_plan(rng), [Request("torque_constant", {"common": True}, scale)])
 
 
 STRATUM = Alias()

@@ -1,4 +1,4 @@
-"""A load on the flange that the description does not have."""
+"""A load that the description does not have, on the flange or on another link where that is asked for."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from app.proof.generator.effects.term import Size, Term
+from app.proof.generator.effects.term import Size, Term, pick
 
 LOAD_SIZES = (
     Size("mass", "kg", "kg"),
@@ -30,14 +30,28 @@ def load_place(values) -> np.ndarray:
 @dataclass(frozen=True)
 class Payload:
     key: str = "payload"
-    places: tuple[str, ...] = ()
+    places: tuple[str, ...] = ("link",)
     sizes: tuple[Size, ...] = LOAD_SIZES
 
     def draw(self, rng, cell, asked):
-        return Term(self.key, {"body": "tool"}, draw_load(rng), scalable=False)
+        if "link" not in asked:
+            return Term(self.key, {"body": "tool"}, draw_load(rng), scalable=False)
+        link = pick(rng, asked, "link", list(range(1, cell.arm.n)), self.key)
+        return Term(self.key, {"link": link}, _draw_load_on(cell.arm, link - 1, rng), scalable=False)
 
     def add(self, cell, term, world):
-        world.loads.append((np.full(cell.m, term.parameters["mass"]), load_place(term.parameters)))
+        mass = np.full(cell.m, term.parameters["mass"])
+        link = term.where["link"] - 1 if "link" in term.where else None
+        world.loads.append((mass, load_place(term.parameters), link))
+
+
+def _draw_load_on(arm, link: int, rng) -> dict[str, float]:
+    """A body fastened to the side of a link (from 0), off the link's own centre; its place in the link's frame."""
+    along = rng.uniform(0.2, 0.9) * arm.translations[link + 1]
+    side = rng.normal(size=3)
+    at = along + rng.uniform(0.06, 0.15) * side / np.linalg.norm(side)
+    com = {f"com_{c}": float(v) for c, v in zip("xyz", at, strict=True)}
+    return {"mass": float(rng.uniform(1.0, 5.0)), **com}
 
 
 EFFECT = Payload()

@@ -21,7 +21,7 @@ class PayloadChange:
 
     def add(self, cell, term, world):
         mass = term.parameters["mass"] * within(cell, term.where)
-        world.loads.append((mass, load_place(term.parameters)))
+        world.loads.append((mass, load_place(term.parameters), None))
 
 
 EFFECT = PayloadChange()

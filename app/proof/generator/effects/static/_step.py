@@ -22,5 +22,6 @@ def step_row(rng: np.random.Generator, cell: Any, asked: Mapping[str, Any], effe
 
 
 def after(cell: Any, from_row: int) -> np.ndarray:
-    """(m,) 1.0 from that row on."""
-    return (np.arange(1, cell.m + 1) >= from_row).astype(float)
+    """(m,) 1.0 from that row on; in a cell where things give way slowly, rising over `cell.settling` rows."""
+    since = np.arange(1, cell.m + 1) - from_row + 1.0
+    return np.clip(since / (1 + cell.settling), 0.0, 1.0)

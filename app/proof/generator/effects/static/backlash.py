@@ -1,4 +1,7 @@
-"""Play in a gear: the link rests on one flank, by the last move or by its weight."""
+"""Play in a gear: the link rests on one flank, by the last move or by its weight.
+
+A controller that makes up for more play than there is leaves a gap below nothing: the link leads.
+"""
 
 from __future__ import annotations
 
@@ -20,7 +23,8 @@ class Backlash:
         driver = pick(rng, asked, "driver", ["approach", "gravity_torque"], self.key)
         joints = list(range(1, cell.arm.n + 1)) if driver == "approach" else loaded_joints(cell)
         joint = pick(rng, asked, "joint", joints, self.key)
-        return Term(self.key, {"joint": joint, "driver": driver}, {"gap": 1e-3})
+        gap = -1e-3 if asked.get("leads") else 1e-3
+        return Term(self.key, {"joint": joint, "driver": driver}, {"gap": gap})
 
     def add(self, cell, term, world):
         j = term.where["joint"] - 1

@@ -1,0 +1,1 @@
+"""Joint logs from the table to the diagnosis."""

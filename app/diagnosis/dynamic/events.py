@@ -1,0 +1,261 @@
+"""Loads taken up and contacts: at which time of the log, and what any law not yet in the design would bring."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import numpy as np
+
+from app.diagnosis.dynamic.event_sums import between, block_gains, by_row, gains
+from app.diagnosis.dynamic.pieces import Pieces, beside, from_start
+from app.diagnosis.effects.dynamic._law import Law
+from app.diagnosis.effects.effect import Place
+from app.diagnosis.models.dynamic.design import TorqueDesign
+from app.diagnosis.models.dynamic.library import Candidate, group_of, laws
+from app.diagnosis.models.dynamic.noise import SKIPPED
+from app.diagnosis.models.dynamic.state import State
+from app.diagnosis.regression.evidence import Evidence, Posterior, Selection
+from app.diagnosis.selection.search import Offer
+from app.diagnosis.thresholds.events import EDGE, LONGEST, MARGIN, MOST, MOVING, SHORTEST
+
+PIECES = 60  # of the log: edges of events are looked for at their ends first, and moved continuously then
+SWELLS = (1.0, 1.3)  # lengths of a contact that swells and fades over that of the best even one
+TRIALS = 40  # edges of such a contact that are tried
+CHANGE, CONTACT = "payload_change", "contact"
+_LOAD, _WRENCH = (
+    slice(0, 10),
+    slice(10, 16),
+)  # columns of a body at the flange, and of a force and a moment there
+
+
+class Events:
+    """Scans a log for events beside a selection, and weighs single laws exactly."""
+
+    def __init__(self, design: TorqueDesign, evidence: Evidence, state: State, without: frozenset[str]):
+        self.design, self.evidence, self.state = design, evidence, state
+        self.laws = {k: v for k, v in laws().items() if k in (CHANGE, CONTACT) and k not in without}
+        if state.joints < 2:  # a torque for a while on one joint is no force at a flange
+            self.laws.pop(CONTACT, None)
+        self._posterior: tuple[Selection, Posterior] | None = None
+        self.forget()
+
+    def forget(self) -> None:
+        """The noise changed."""
+        self._columns: list[np.ndarray] | None = None
+        self._pieces: list[Pieces] | None = None
+        self._cached: tuple[Selection, tuple] | None = None
+        self._posterior = None
+
+    # -------------------------------------------------------------- what a law would bring
+
+    def _found(self, selection: Selection) -> Posterior:
+        """The posterior of a selection, kept for the same one."""
+        if self._posterior is None or self._posterior[0] != selection:
+            self._posterior = (dict(selection), self.evidence.posterior(selection))
+        return self._posterior[1]
+
+    def _beside(self, selection: Selection):
+        """Inverse of the selection's M, its columns joint by joint and the residual, kept for the same selection."""
+        if self._cached is not None and self._cached[0] == selection:
+            return self._cached[1]
+        found = self._found(selection)
+        at = {int(c): i for i, c in enumerate(found.columns)}
+        parts, residual = [], []
+        for ids, white, own in zip(self.design.at, self.design.white, self.design.white_y, strict=True):
+            here = [k for k, c in enumerate(ids.tolist()) if c in at]
+            places = np.array([at[int(ids[k])] for k in here], int)
+            columns = white[:, here]
+            parts.append((columns, places))
+            residual.append(own - columns @ found.weights[places])
+        out = (found.covariance, parts, residual)
+        self._cached = (dict(selection), out)
+        return out
+
+    def gain(self, selection: Selection, law: Law, place: Place) -> float:
+        """Evidence that a law at a place would add [nats], its penalty counted."""
+        inverse, parts, residual = self._beside(selection)
+        columns, widths = law.block(self.state, place)
+        d, a = len(widths), len(inverse)
+        gram, cross, right = np.zeros((d, d)), np.zeros((d, a)), np.zeros(d)
+        for j, values in columns.items():
+            if not self.design.alive[j]:
+                continue
+            white = self.design.whiteners[j](values * widths)
+            gram += white.T @ white
+            cross[:, parts[j][1]] += white.T @ parts[j][0]
+            right += white.T @ residual[j]
+        block = gram - cross @ inverse @ cross.T + np.eye(d)
+        fit = 0.5 * right @ np.linalg.solve(block, right) - 0.5 * float(np.linalg.slogdet(block)[1])
+        return float(fit) - law.penalty - place.cost
+
+    # -------------------------------------------------------------- events
+
+    def offers(self, selection: Selection) -> Iterable[Offer]:
+        """The best change of load and the best contact, their times refined."""
+        present = [self.evidence.groups[g] for g in selection]
+        if (
+            sum(_is_event(g.label) for g in present) >= MOST
+            or len(self.state.t) < 4 * PIECES
+            or not self.laws
+        ):
+            return
+        scanned = self._scan(selection)
+        best = max(gain for _, _, gain in scanned)
+        for key, where, gain in scanned:
+            if gain < max(MARGIN, 0.3 * best):
+                continue
+            law = self.laws[key]
+            cost = np.log(PIECES) * (1 if key == CHANGE else 2)
+            build = lambda law=law, where=where, cost=float(cost): self._take(selection, law, where, cost)  # noqa: E731
+            yield Offer(gain - MARGIN, 1.0, build)
+
+    def _take(self, selection: Selection, law: Law, where: dict[str, float], cost: float) -> int:
+        place, _ = self._refined(selection, law, where, cost)
+        own = self.design.add([law.block(self.state, place)])[0]
+        self.evidence.groups.append(group_of(Candidate(law, place), own))
+        return len(self.evidence.groups) - 1
+
+    def _scan(self, selection: Selection) -> list[tuple[str, dict[str, float], float]]:
+        """Best edges among the ends of pieces: all changes and all windows by sums over pieces."""
+        found = self._found(selection)
+        if self._pieces is None:
+            white = self._whitened()
+            self._pieces = [Pieces(z, y, PIECES) for z, y in zip(white, self.design.white_y, strict=True)]
+        inverse, edges, rows = found.covariance, self._pieces[0].edges, int(self._pieces[0].edges[-1])
+        gram, cross, right = beside(self._pieces, self.design, found)
+        out = []
+        t = self.state.t[SKIPPED:]
+        at = lambda k: float(t[min(edges[k], rows - 1)])  # noqa: E731
+        share = self._moved()
+        first = np.flatnonzero((share[edges] >= EDGE) & (share[edges] <= 1.0 - EDGE))
+        if CHANGE in self.laws and len(first):
+            gain = gains(gram, cross, right, inverse, first, np.full(len(first), PIECES), _LOAD)
+            best = int(gain.argmax())
+            out.append((CHANGE, {"from_s": at(first[best])}, float(gain[best] - np.log(len(first)) - 2.0)))
+        if CONTACT in self.laws:
+            longest = int(LONGEST * PIECES)
+            at_edges = share[edges] * PIECES  # friction at rest hides what pushes then
+            pairs = [
+                (x, y)
+                for x in range(PIECES)
+                for y in range(x + 2, min(PIECES, x + longest) + 1)
+                if at_edges[y] - at_edges[x] > MOVING * (y - x)
+            ]
+            first, last = np.array(pairs).T
+            gain = gains(gram, cross, right, inverse, first, last, _WRENCH)
+            best = int(gain.argmax())
+            where = {"from_s": at(first[best]), "to_s": at(last[best])}
+            out.append((CONTACT, where, float(gain[best] - 2.0 * np.log(PIECES) - 2.0)))
+        return out
+
+    def _moved(self) -> np.ndarray:
+        """(rows + 1,) share of the log's motion before each row: a load at rest is one with what friction holds."""
+        moving = ~np.all([self.state.stands(j) for j in range(self.state.joints)], axis=0)[SKIPPED:]
+        if not moving.any():
+            moving[:] = True
+        return np.concatenate([[0.0], np.cumsum(moving) / moving.sum()])
+
+    def _whitened(self) -> list[np.ndarray]:
+        """Columns of a load and of a force, scaled to nominal widths, whitened, of the whole log."""
+        if self._columns is None:
+            everything = []
+            for key in (CHANGE, CONTACT):
+                law = laws()[key]
+                columns, widths = law.block(self.state, Place({"body": "tool"}))
+                everything.append({j: c * widths for j, c in columns.items()})
+            self._columns = [
+                self.design.whiteners[j](np.hstack([part[j] for part in everything])) * self.design.alive[j]
+                for j in range(self.design.joints)
+            ]
+        return self._columns
+
+    def moved(self, selection: Selection, law: Law, place: Place) -> Place:
+        """An event with its edges where they bring most beside a selection."""
+        where = {k: float(place.where[k]) for k in ("from_s", "to_s") if k in place.where}
+        return self._refined(selection, law, where, place.cost)[0]
+
+    def _refined(
+        self, selection: Selection, law: Law, where: dict[str, float], cost: float
+    ) -> tuple[Place, float]:
+        """Edges at single rows, each in turn at the most evidence; a contact may also swell and fade."""
+        inverse, parts, residual = self._beside(selection)
+        own = _LOAD if law.key == CHANGE else _WRENCH
+        white = [z[:, own] for z in self._whitened()]
+        rows = len(residual[0])
+        t = self.state.t[SKIPPED:]
+        edges = [int(np.searchsorted(t, time)) for time in where.values()]
+        share = self._moved()
+        if law.key == CHANGE:
+            edges.append(rows)
+        reach, least = 2 * rows // PIECES, max(int(SHORTEST / max(float(np.median(np.diff(t))), 1e-9)), 2)
+        for k in (0,) if law.key == CHANGE else (0, 1, 0, 1):
+            low = max(0 if k == 0 else edges[0] + least, edges[k] - reach)
+            high = max(min(edges[1] - least if k == 0 else rows, edges[k] + reach), low)
+            if law.key == CHANGE:
+                inside = np.flatnonzero((share >= EDGE) & (share <= 1.0 - EDGE))
+                low, high = max(low, int(inside[0])), max(min(high, int(inside[-1])), int(inside[0]))
+            # Sums over the part that every trial has, and row by row over what it may have more.
+            fixed = slice(high, edges[1]) if k == 0 else slice(edges[0], low)
+            sums = between(white, parts, residual, len(inverse), fixed)
+            single = by_row(white, parts, residual, len(inverse), slice(low, high))
+            more = [from_start(v) for v in single]
+            if k == 0:  # a later first edge leaves rows out
+                more = [v[-1] - v for v in more]
+            gram, cross, right = (s + m for s, m in zip(sums, more, strict=True))
+            gain = block_gains(gram, cross, right, inverse)
+            if len(gain):  # none where the log ends before the shortest event does
+                edges[k] = low + int(gain.argmax())
+        ends = ("from_s",) if law.key == CHANGE else ("from_s", "to_s")
+        step = float(np.median(np.diff(t)))
+        times = [float(t[min(k, rows - 1)]) - (0.5 * step if k < rows else -step) for k in edges]
+        place = Place({"body": "tool", "driver": "time", **dict(zip(ends, times, strict=False))}, cost=cost)
+        best = self._at_exact_rows(selection, law, place, step)
+        if law.key == CONTACT:
+            swelling = self._swelling(selection, law, place)
+            best = max(best, swelling, key=lambda found: found[0])
+        return best[1], best[0]
+
+    def _at_exact_rows(
+        self, selection: Selection, law: Law, place: Place, step: float
+    ) -> tuple[float, Place]:
+        """The event with its edges moved by single rows.
+
+        Sums over rows take what is whitened before it is cut; an edge that is cut before, as it is, may lie as many
+        rows off as the noise remembers.
+        """
+        best = (self.gain(selection, law, place), place)
+        for end in [end for end in ("from_s", "to_s") if end in place.where]:
+            for rows in (-4, -3, -2, -1, 1, 2, 3, 4):
+                trial = Place(
+                    {**best[1].where, end: place.where[end] + rows * step}, place.fixed, cost=place.cost
+                )
+                best = max(best, (self.gain(selection, law, trial), trial), key=lambda found: found[0])
+        return best
+
+    def _swelling(self, selection: Selection, law: Law, even: Place) -> tuple[float, Place]:
+        """The best contact that rises and falls as half a sine, as a push by hand does, and its evidence."""
+        from scipy.optimize import minimize
+
+        first, last = even.where["from_s"], even.where["to_s"]
+        middle, half, least = 0.5 * (first + last), 0.5 * (last - first), 0.5 * SHORTEST
+
+        def place(ends: np.ndarray) -> Place:
+            where = {"from_s": float(ends[0]), "to_s": float(max(ends[1], ends[0] + least))}
+            return Place({**even.where, **where}, {"fixed_swell": 1.0}, cost=even.cost + 1.0)
+
+        starts = [np.array([middle - wider * half, middle + wider * half]) for wider in SWELLS]
+        start = max(starts, key=lambda ends: self.gain(selection, law, place(ends)))
+        found = minimize(
+            lambda ends: -self.gain(selection, law, place(ends)),
+            start,
+            method="Nelder-Mead",
+            options={
+                "maxfev": TRIALS,
+                "initial_simplex": start + 0.1 * half * np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]),
+            },
+        )
+        return float(-found.fun), place(found.x)
+
+
+def _is_event(found: object) -> bool:
+    return isinstance(found, Candidate) and found.law.windowed

@@ -1,0 +1,175 @@
+"""What another log of the same arm taught: its laws with their values, and how far these may be otherwise here.
+
+A linear Gaussian model learnt on one log is the prior of the next: its mean is taken for part of the description, its
+covariance stays free as one group of columns X L, with L L' the covariance of the values, so that the evidence weighs a
+change against it. That is the same as fitting both logs in one problem. Friction may drift from log to log.
+
+Source: Bayesian updating of the linear model, e.g. Gelman et al., Bayesian Data Analysis (2013), section 14.8.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+
+from app.diagnosis.dynamic.families import families
+from app.diagnosis.dynamic.fitting import Fitted
+from app.diagnosis.dynamic.labels import label
+from app.diagnosis.dynamic.names import Member
+from app.diagnosis.dynamic.solution import solve
+from app.diagnosis.dynamic.study import Study
+from app.diagnosis.effects.dynamic._friction import WIDTH
+from app.diagnosis.effects.dynamic._law import Law, Torques
+from app.diagnosis.effects.effect import Place, Quantity
+from app.diagnosis.model import ModelEffect
+from app.diagnosis.models.dynamic.library import Candidate, nominal
+from app.diagnosis.models.dynamic.state import State
+from app.diagnosis.thresholds.evidence import DRIFT
+from app.diagnosis.thresholds.naming import MEMBER_WALD, MEMBER_WALD_PARAMETER
+
+DRIFTING = (
+    "viscous_friction",
+    "coulomb_friction",
+    "load_friction",
+    "quadratic_friction",
+    "stribeck_friction",
+)
+KEY = "known_before"
+
+
+@dataclass(frozen=True, eq=False)
+class Term:
+    """One law of the other log: its place, and which of the values are its."""
+
+    law: Law
+    place: Place
+    part: slice
+
+
+class KnownBefore(Law):
+    """The values of another log, free within their covariance: one group that is always in."""
+
+    key = KEY
+    title = "values learnt on another log"
+    equation = "tau = X (mean + L w)"
+    family = "unnamed"
+    follows_load = True
+    certain = True
+
+    def __init__(self, terms: tuple[Term, ...], mean: np.ndarray, covariance: np.ndarray):
+        self.terms, self.mean = terms, mean
+        values, vectors = np.linalg.eigh(covariance)
+        kept = values > 1e-14 * max(float(values[-1]), 1e-300)
+        self.half = vectors[:, kept] * np.sqrt(values[kept])
+
+    def places(self, situation: State) -> Iterable[Place]:
+        return [Place({})]
+
+    def quantities(self, situation: State, place: Place) -> tuple[Quantity, ...]:
+        return tuple(Quantity(f"direction{k}", "", 1.0) for k in range(self.half.shape[1]))
+
+    def widths(self, situation: State, place: Place, found: Torques | None = None) -> np.ndarray:
+        return np.ones(self.half.shape[1])
+
+    def columns(self, columns: State, place: Place) -> Torques:
+        out: dict[int, np.ndarray] = {}
+        for term in self.terms:
+            for joint, values in term.law.columns(columns, term.place).items():
+                added = values @ self.half[term.part]
+                out[joint] = out[joint] + added if joint in out else added
+        return out
+
+    def effects(self, weights: np.ndarray | None = None) -> tuple[ModelEffect, ...]:
+        """The laws with their values, moved by `weights` along the columns."""
+        values = self.mean if weights is None else self.mean + self.half @ weights
+        return tuple(
+            ModelEffect(t.law.key, dict(t.place.where), t.law.saved(t.place, values[t.part]), named=False)
+            for t in self.terms
+        )
+
+
+def known_from(fitted: Fitted, drift: float = DRIFT) -> KnownBefore:
+    """What a fitted log taught, all families asked for their values whether they were selected or not.
+
+    Where structure is left, drive gains are not asked: they would bend to it, and masses with them.
+
+    Args:
+        drift: relative, of friction from that log to the next.
+    """
+    asked = fitted.asked
+    chosen, left = dict(asked.selection), bool(fitted.left.any())
+    every = [(g, asked.label(g).law) for g in families(asked)]
+    for g in (g for g, law in every if law.lasting and not (left and law.undone)):
+        own = set(asked.group(g).columns.tolist())
+        if g not in chosen:
+            inside = [k for k in chosen if set(asked.group(k).columns.tolist()) <= own]
+            chosen = {k: v for k, v in chosen.items() if k not in inside}
+            chosen[g] = nominal(asked.group(g))
+    before = asked.selection
+    asked.selection = chosen  # what was so once stays in beside the rest, or its torque would bend what lasts
+    study = Study(fitted.study.samples, stretch=asked.stretch, known=asked_known(fitted), like=asked)
+    asked.selection = before
+    held = [g for g in study.selection if study.label(g).held]
+    solution = solve(study, plain=left, held=held, gains=False)
+    terms, columns = [], []
+    for candidate, own in _members(study, held):
+        place = candidate.place
+        if candidate.law.blunt and "joint" in place.where:
+            width = float(study.state.width[int(place.where["joint"]) - 1])
+            place = Place(place.where, {**place.fixed, WIDTH: width})
+        terms.append(Term(candidate.law, place, slice(len(columns), len(columns) + len(own))))
+        columns += own.tolist()
+    weights, covariance = solution.of(np.array(columns, int))
+    scale = study.design.scale[columns]
+    mean, covariance = weights * scale, covariance * scale[:, None] * scale
+    for term in terms:
+        if term.law.key in DRIFTING:
+            covariance[term.part, term.part] += np.diag((drift * mean[term.part]) ** 2)
+    return KnownBefore(tuple(terms), mean, covariance)
+
+
+def _tells(candidate: Candidate) -> bool:
+    """True for what another log of the arm has too: no event, no rest, no course of time without a name."""
+    named_time = candidate.law.family == "unnamed" and candidate.place.where.get("driver") == "time"
+    return candidate.law.lasting and not candidate.law.windowed and not named_time
+
+
+def differs(reference: Fitted, member: Member) -> bool:
+    """Is a law another one than in the reference log, or was it there, only too small in that motion to be taken?
+
+    The reference is asked for its values beside all it has; they differ where the Wald statistic of the difference
+    is that of a finding. What was taken for part of the description is a change as such.
+    """
+    law, place, study = member.candidate.law, member.candidate.place, reference.asked
+    there = [study.label(g) for g in study.selection]
+    had = any(c.law is law and (c.whole or c.place.where == place.where) for c in there)
+    if had or law.windowed or law.carried or (law.whole and law.lasting):
+        return True
+    g = study.add(law, place)
+    columns = study.group(g).columns
+    weights, covariance = study.evidence.posterior({**study.selection, g: 1.0}).of(columns)
+    scale = study.design.scale[columns]
+    apart = member.values - weights * scale
+    both = member.covariance + covariance * scale[:, None] * scale
+    needed = MEMBER_WALD + MEMBER_WALD_PARAMETER * (len(columns) - 1)
+    return float(apart @ np.linalg.pinv(both) @ apart) > needed
+
+
+def asked_known(fitted: Fitted) -> np.ndarray | None:
+    """(M, n) torque that was taken for part of the description."""
+    return fitted.study.known
+
+
+def _members(study: Study, held: list[int]):
+    inside = [set(study.group(g).columns.tolist()) for g in study.selection if study.label(g).whole]
+    for g in study.selection:
+        candidate = study.label(g)
+        known = isinstance(candidate.law, KnownBefore) or not _tells(candidate)
+        if not candidate.whole and g not in held and not known:
+            yield candidate, study.group(g).columns
+    for group in study.evidence.groups:
+        own, candidate = set(group.columns.tolist()), label(group)
+        if any(own <= part for part in inside) and not candidate.whole and _tells(candidate):
+            yield candidate, group.columns

@@ -1,0 +1,87 @@
+"""The arm does not stand upright: gravity points elsewhere than the description says."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
+from typing import ClassVar
+
+import numpy as np
+
+from app.diagnosis.effects.dynamic._law import Law, Torques, Values, Where, everywhere
+from app.diagnosis.effects.effect import Place
+from app.diagnosis.models.dynamic.hypothesis import Hypothesis
+from app.diagnosis.models.dynamic.state import State
+from app.diagnosis.result import Parameter
+from app.kinematics.robot import GRAVITY
+
+TILT = 1.0  # m/s^2: nominal size of the part across, 6 degrees
+_FIXED = ("fixed_gx", "fixed_gy", "fixed_gz")
+
+
+class GravityDirection(Law):
+    """Gravity is linear in the torques: its part across the direction assumed is fitted, its size is kept."""
+
+    key = "gravity_direction"
+    title = "gravity points elsewhere"
+    family = "mounting"
+    driver = "gravity_torque"
+    equation = "tau = tau_rigid(g) - tau_rigid(g of the description)"
+    units: ClassVar = {"gx": "m/s^2", "gy": "m/s^2", "gz": "m/s^2"}
+    linear = ("across1", "across2")
+    undone = True
+    carried = True
+
+    def places(self, situation: State) -> Iterable[Place]:
+        g = situation.hypothesis.gravity
+        if not np.any(g):  # recorded without gravity: nothing points anywhere
+            return []
+        return [Place({"body": "base", "driver": self.driver}, dict(zip(_FIXED, map(float, g), strict=True)))]
+
+    def columns(self, columns: State, place: Place) -> Torques:
+        return everywhere(columns.gravity_columns @ _across(place.fixed).T)
+
+    def widths(self, situation: State, place: Place, found: Torques | None = None) -> np.ndarray:
+        return np.full(2, TILT)
+
+    def saved(self, place: Place, values: np.ndarray) -> dict[str, float]:
+        g = _leaning(place.fixed, values)
+        return {"gx": float(g[0]), "gy": float(g[1]), "gz": float(g[2])}
+
+    def torque(self, state: State, where: Where, parameters: Values) -> Torques:
+        change = np.array([parameters[k] for k in ("gx", "gy", "gz")]) - GRAVITY
+        return everywhere(state.gravity_columns @ change)
+
+    def undo(self, hypothesis: Hypothesis, place: Place, values: np.ndarray) -> Hypothesis:
+        return replace(hypothesis, gravity=_leaning(place.fixed, values))
+
+    def reported(self, place: Place, values: np.ndarray, covariance: np.ndarray) -> tuple[Parameter, ...]:
+        across = _across(place.fixed)
+        std = np.sqrt(np.maximum(np.diag(across.T @ covariance @ across), 0.0))
+        return tuple(
+            Parameter(name, value, float(s), "m/s^2")
+            for (name, value), s in zip(self.saved(place, values).items(), std, strict=True)
+        )
+
+    def sentence(self, place: Place, parameters: tuple[Parameter, ...]) -> str:
+        g = np.array([p.value for p in parameters[:3]])
+        tilt = np.arccos(np.clip(g @ GRAVITY / np.linalg.norm(g) / np.linalg.norm(GRAVITY), -1, 1))
+        return (
+            f"The base leans by {tilt:.4g} rad: gravity is ({g[0]:.3f}, {g[1]:.3f}, {g[2]:.3f}) m/s^2 in it."
+        )
+
+
+def _across(fixed: Mapping[str, float]) -> np.ndarray:
+    """(2, 3) unit vectors across the gravity assumed."""
+    g = np.array([fixed[k] for k in _FIXED])
+    return np.linalg.svd(g[None])[2][1:]
+
+
+def _leaning(fixed: Mapping[str, float], values: np.ndarray) -> np.ndarray:
+    """(3,) gravity with a part across added and its size kept."""
+    g = np.array([fixed[k] for k in _FIXED])
+    leant = g + _across(fixed).T @ np.asarray(values, float)
+    return leant * np.linalg.norm(g) / np.linalg.norm(leant)
+
+
+EFFECT = GravityDirection()

@@ -1,0 +1,100 @@
+"""A torque is recorded by a wrong factor: a wrong drive gain or sensor scale, of one joint or of all."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import replace
+from typing import ClassVar
+
+import numpy as np
+
+from app.diagnosis.effects.dynamic._law import JointLaw, Torques, Values, Where
+from app.diagnosis.effects.effect import Place
+from app.diagnosis.models.dynamic.hypothesis import Hypothesis
+from app.diagnosis.models.dynamic.state import State
+from app.diagnosis.result import Parameter
+from app.diagnosis.thresholds.evidence import GAIN_SPREAD
+
+NOMINAL = 0.3  # drive gains of a maker differ by some percent; one that was taken for another by tens
+SMALLEST, LARGEST = (
+    5e-4,
+    2e3,
+)  # factors that a torque may be recorded by: millinewton-metres for newton-metres
+CURRENT = 0.25  # drives of arms give 4 Nm and more for an ampere, seen through the gear
+
+
+DRIVE = "drive"  # marks the small factors of all drives at once
+
+
+class TorqueConstant(JointLaw):
+    key = "torque_constant"
+    title = "its torque is recorded by a wrong factor"
+    family = "drive"
+    driver = ""
+    equation = "tau_recorded = (1 + scale) * tau"
+    units: ClassVar = {"scale": ""}
+    linear = ("scale",)
+    undone = True
+    gain = True
+    whole = True
+    sure = True
+    spread = ((GAIN_SPREAD / NOMINAL) ** 2,)  # of all drives at once, as they are made
+    beside = "link_inertia"  # masses are less sure than drives
+    follows_load = True
+    clashes = ("link_inertia",)
+
+    def places(self, situation: State) -> Iterable[Place]:
+        done = situation.hypothesis.factors - 1.0
+        alike = not np.ptp(done) or np.any(done <= -1.0)
+        common = float(done[0]) if alike else float(np.exp(np.mean(np.log1p(done)))) - 1.0
+        every = [Place({}, {"fixed_scale": common}, member=False)] if situation.joints > 1 else []
+        own = [Place({"joint": j + 1}, {"fixed_scale": float(s)}, member=False) for j, s in enumerate(done)]
+        drives = [
+            Place({"joint": j + 1}, {"fixed_scale": float(s), DRIVE: 1.0}, alone=False)
+            for j, s in enumerate(done)
+        ]
+        return [*every, *own, *drives]
+
+    def columns(self, columns: State, place: Place) -> Torques:
+        joints = [int(place.where["joint"]) - 1] if "joint" in place.where else range(columns.joints)
+        return {j: self.column(columns, j, place.fixed) for j in joints}
+
+    def column(self, state: State, joint: int, fixed: Values) -> np.ndarray:
+        # A large factor is undone in the log; of a small one the column is all that it scales, friction too.
+        return (state.drive if DRIVE in fixed else state.torque)[:, joint, None]
+
+    def saved(self, place: Place, values: np.ndarray) -> dict[str, float]:
+        return {"scale": (1.0 + place.fixed.get("fixed_scale", 0.0)) * (1.0 + float(values[0])) - 1.0}
+
+    def undo(self, hypothesis: Hypothesis, place: Place, values: np.ndarray) -> Hypothesis:
+        factor = hypothesis.factors
+        joints = [int(place.where["joint"]) - 1] if "joint" in place.where else list(range(hypothesis.joints))
+        factor[joints] *= 1.0 + float(values[0])
+        return replace(hypothesis, factor=tuple(map(float, factor)))
+
+    def torque(self, state: State, where: Where, parameters: Values) -> Torques:
+        return {j: parameters["scale"] * c[:, 0] for j, c in self.columns(state, Place(where)).items()}
+
+    def widths(self, situation: State, place: Place, found: Torques | None = None) -> np.ndarray:
+        return np.array([NOMINAL])
+
+    def reported(self, place: Place, values: np.ndarray, covariance: np.ndarray) -> tuple[Parameter, ...]:
+        std = float(np.sqrt(max(covariance[0, 0], 0.0))) * (1.0 + place.fixed.get("fixed_scale", 0.0))
+        return (Parameter("scale", self.saved(place, values)["scale"], std, ""),)
+
+    def lawful(self, parameters: Values) -> bool:
+        return SMALLEST < 1.0 + parameters["scale"] < LARGEST
+
+    def sentence(self, place: Place, parameters: tuple[Parameter, ...]) -> str:
+        factor, std = 1.0 + parameters[0].value, parameters[0].std
+        current = " Are these motor currents?" if factor < CURRENT else ""
+        if "joint" in place.where:
+            said = f"The torque of joint {place.where['joint']} is recorded at {factor:.4g} ± {std:.1g} of what it is."
+            return said + current
+        return (
+            f"The torques are {factor:.4g} ± {std:.1g} times the description's in every joint: "
+            f"torque factor or masses, this log cannot tell which.{current}"
+        )
+
+
+EFFECT = TorqueConstant()

@@ -1,0 +1,1 @@
+"""Effects seen in where a tool point is: one file each."""

@@ -1,1 +1,0 @@
-"""Effects seen in where a tool point is."""

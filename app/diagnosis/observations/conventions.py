@@ -1,0 +1,129 @@
+"""Conventions a recording may have been written down in by mistake, tried out one by one on a gross misfit."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from app.diagnosis.effects.effect import Place
+from app.diagnosis.observations.pose_data import StaticRecording
+from app.diagnosis.thresholds.conventions import HARDLY, TURNS
+from app.diagnosis.wording import note
+from app.kinematics import RobotModel
+from app.phrases import Said
+from app.units import DEG_PER_RAD, MM_PER_CM, MM_PER_INCH, MM_PER_M
+
+SIGN, SWAP, QUARTER, ANGLE_UNIT, LENGTH_UNIT, INVERSE, HORIZON = (float(i) for i in range(7))
+#: The kinds, the one that people mix up most first.
+LIKELIHOOD = (SIGN, HORIZON, INVERSE, ANGLE_UNIT, LENGTH_UNIT, QUARTER, SWAP)
+#: What brings lengths to the unit their column states, likeliest first.
+_LENGTH_FACTORS = (MM_PER_M, 1.0 / MM_PER_M, MM_PER_CM, MM_PER_INCH)
+
+
+@dataclass(frozen=True)
+class Convention:
+    """One way the recording may be wrong: what it is and where it is reported to sit."""
+
+    place: Place
+
+    def undone(self, recording: StaticRecording, robot: RobotModel) -> StaticRecording:
+        """The recording as it should have been written."""
+        if self.place.fixed["kind"] in (LENGTH_UNIT, INVERSE):
+            return self.placed(recording)
+        return recording.with_joints(robot, converted_joints(recording.q, self.place.fixed))
+
+    def placed(self, recording: StaticRecording) -> StaticRecording:
+        """The same as far as base and tool go: loads and other drivers stay those of the joints as written."""
+        fixed = self.place.fixed
+        kind = fixed["kind"]
+        if kind == LENGTH_UNIT:
+            points = None if recording.points is None else recording.points * fixed["factor"]
+            lengths = None if recording.lengths is None else recording.lengths * fixed["factor"]
+            return replace(recording, points=points, lengths=lengths)
+        if kind == INVERSE:
+            assert recording.orientations is not None
+            return replace(recording, orientations=np.swapaxes(recording.orientations, 1, 2))
+        situation = replace(recording.situation, q=converted_joints(recording.q, fixed))
+        return replace(recording, situation=situation)
+
+
+def converted_joints(q: np.ndarray, fixed: Mapping[str, float]) -> np.ndarray:
+    """(m, n) joint positions brought to the description's convention; others than joint kinds change nothing."""
+    out = q.copy()
+    kind, j, other = fixed.get("kind"), int(fixed.get("joint", 1)) - 1, int(fixed.get("other", 1)) - 1
+    if kind == SIGN:
+        out[:, j] = -q[:, j]
+    elif kind == SWAP:
+        out[:, [j, other]] = q[:, [other, j]]
+    elif kind == QUARTER:
+        out[:, j] = q[:, j] + fixed["turn"]
+    elif kind == ANGLE_UNIT:
+        out = q * fixed["factor"]
+    elif kind == HORIZON:
+        out[:, j] = q[:, j] + fixed["sense"] * q[:, other]
+    return out
+
+
+def likelihood_of(convention: Convention) -> int:
+    """Rank of a convention among the mistakes people make, the commonest first."""
+    return LIKELIHOOD.index(convention.place.fixed["kind"])
+
+
+def title_of(place: Place) -> Said:
+    """In words."""
+    fixed = place.fixed
+    kind = fixed["kind"]
+    j, other = int(fixed.get("joint", 0)), int(fixed.get("other", 0))
+    if kind == SIGN:
+        return note("convention_sign", joint=j)
+    if kind == SWAP:
+        return note("convention_swap", joint=j, other=other)
+    if kind == QUARTER:
+        return note("convention_quarter", joint=j, turn=fixed["turn"] * DEG_PER_RAD)
+    if kind == ANGLE_UNIT:
+        return note("convention_angle_unit")
+    if kind == HORIZON:
+        return note("convention_horizon", joint=j, other=other)
+    if kind == LENGTH_UNIT:
+        if fixed["factor"] == MM_PER_INCH:
+            return note("convention_inches")
+        if fixed["factor"] == MM_PER_CM:
+            return note("convention_centimetres")
+        return note("convention_length_unit")
+    return note("convention_inverse")
+
+
+def conventions(recording: StaticRecording) -> Iterator[Convention]:
+    """Everything that is tried, likeliest first."""
+    prismatic = recording.situation.chain.prismatic
+    joints = range(1, len(prismatic) + 1)
+    for j in joints:
+        yield Convention(Place({"joint": j}, {"kind": SIGN, "joint": float(j)}))
+    # FANUC and arms with a parallel link count the forearm against the horizon and not against the upper arm
+    for j in joints[1:]:
+        if not prismatic[j - 1] and not prismatic[j - 2]:
+            for sense in (1.0, -1.0):
+                fixed = {"kind": HORIZON, "joint": float(j), "other": float(j - 1), "sense": sense}
+                yield Convention(Place({"joint": j, "source_joint": j - 1}, fixed))
+    if recording.orientations is not None:
+        yield Convention(Place({"body": "instrument"}, {"kind": INVERSE}))
+    if not prismatic.any():
+        # Angles that are a fraction of a degree throughout, or tens of turns: else an arm that hardly moves fits all.
+        largest = float(np.abs(recording.q).max())
+        factors = [DEG_PER_RAD] * (largest < HARDLY) + [1.0 / DEG_PER_RAD] * (largest > TURNS)
+        for factor in factors:
+            yield Convention(Place({"body": "instrument"}, {"kind": ANGLE_UNIT, "factor": factor}))
+    if recording.mode != "targets":
+        for factor in _LENGTH_FACTORS:
+            yield Convention(Place({"body": "instrument"}, {"kind": LENGTH_UNIT, "factor": factor}))
+    for j in joints:
+        if not prismatic[j - 1]:
+            for turn in (0.5 * np.pi, -0.5 * np.pi, np.pi):
+                yield Convention(Place({"joint": j}, {"kind": QUARTER, "joint": float(j), "turn": turn}))
+    for j in joints:
+        for other in range(j + 1, len(prismatic) + 1):
+            if prismatic[j - 1] == prismatic[other - 1]:
+                fixed = {"kind": SWAP, "joint": float(j), "other": float(other)}
+                yield Convention(Place({"joint": j, "source_joint": other}, fixed))

@@ -1,0 +1,285 @@
+"""Log evidence of a set of groups of columns, gains of all others, and the posterior.
+
+A group g has weights w_g ~ N(0, gamma_g sigma^2 I) in columns that are scaled to the nominal sizes; gamma_g is
+learnt (empirical Bayes) from a grid and capped. With R the penalised residual,
+
+    L(S) = -(nu/2) ln R(S) - 1/2 ln |I + Gamma G| - sum of penalties          sigma profiled out
+    L(S) = -R(S) / 2       - 1/2 ln |I + Gamma G| - sum of penalties          unit noise
+
+Source: Bayesian linear regression, MacKay, "Bayesian interpolation", Neural Computation 4 (1992), eq. 2.18 ff.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Mapping, Sequence
+
+import numpy as np
+
+from app.diagnosis.regression.groups import Group, Layout, Selection
+from app.diagnosis.regression.inside import ROUNDING, Inside
+from app.diagnosis.regression.solved import Beside, Factor, Posterior, Statistics
+from app.diagnosis.regression.triangular import inverse_of, lower_solved
+
+__all__ = ["Beside", "Evidence", "Factor", "Group", "Posterior", "Selection", "Statistics"]
+
+
+#: Factorised selections that are kept: what is scored is asked for its losses and for what could join it, too.
+KEPT = 4
+
+
+class Evidence:
+    """Evidence of selections among groups.
+
+    Args:
+        statistics: the design, or anything with its Gram matrix.
+        groups: all groups; more may be appended.
+        unit_noise: True where the whitened noise has unit variance for sure.
+        kept: groups that stay in at the smallest width instead of falling out when they are tuned.
+    """
+
+    def __init__(self, statistics: Statistics, groups: Sequence[Group], *, unit_noise: bool = False):
+        self.statistics = statistics
+        self.groups = list(groups)
+        self.unit_noise = unit_noise
+        self.kept: set[int] = set()
+        self._laid: Layout | None = None
+        self._factors: dict[tuple, Factor] = {}
+        self._factors_of: tuple[object, object] = (None, None)
+
+    def factor(self, selection: Mapping[int, float]) -> Factor:
+        """A selection factorised; those asked last are kept as long as the statistics stand."""
+        s = self.statistics
+        if not selection:
+            none = np.zeros(0, int)
+            return Factor(none, np.zeros((0, 0)), np.zeros(0), s.total, 0.0)
+        if self._factors_of[0] is not s.matrix or self._factors_of[1] is not s.right:
+            self._factors, self._factors_of = {}, (s.matrix, s.right)
+        key = tuple(selection.items())
+        if key not in self._factors:
+            if len(self._factors) >= KEPT:
+                del self._factors[next(iter(self._factors))]
+            self._factors[key] = self._factorised(selection)
+        return self._factors[key]
+
+    def _factorised(self, selection: Mapping[int, float]) -> Factor:
+        s = self.statistics
+        columns, gamma = self._inside(selection)
+        matrix = s.matrix[columns[:, None], columns]
+        # Of columns that are alike to the last digits the sum of their weights is known, and no more.
+        matrix.flat[:: len(matrix) + 1] += 1.0 / gamma + ROUNDING * np.diagonal(matrix)
+        lower = np.linalg.cholesky(matrix)
+        solved = lower_solved(lower, s.right[columns])
+        residual = max(s.total - float(solved @ solved), 1e-9 * s.total, 1e-300)
+        occam = float(np.log(np.diagonal(lower)).sum() + 0.5 * np.log(gamma).sum())
+        return Factor(columns, lower, solved, residual, occam)
+
+    def _inside(self, selection: Mapping[int, float]) -> tuple[np.ndarray, np.ndarray]:
+        """(a,) columns of a selection and their widths."""
+        groups = [self.groups[g].columns for g in selection]
+        return np.concatenate(groups), np.repeat(list(selection.values()), [len(c) for c in groups])
+
+    def fit(self, residual: np.ndarray | float, total: float) -> np.ndarray | float:
+        """Log likelihood beyond that of a residual `total`."""
+        if self.unit_noise:
+            return 0.5 * (total - residual)
+        return -0.5 * self.statistics.dof * np.log(residual / total)
+
+    def score(self, selection: Mapping[int, float]) -> float:
+        """L(S) beyond that of the empty selection [nats]."""
+        f = self.factor(selection)
+        penalties = sum(self.groups[g].penalty for g in selection)
+        return float(self.fit(f.residual, max(self.statistics.total, 1e-300))) - f.occam - penalties
+
+    def variance(self, factor: Factor) -> float:
+        return 1.0 if self.unit_noise else factor.residual / self.statistics.dof
+
+    def gains(
+        self, selection: Mapping[int, float], candidates: Sequence[int], beside: Beside | None = None
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """What each candidate would add to the evidence, penalty included, at its best width.
+
+        Args:
+            beside: what is left of every column beside the selection, where it is known already.
+
+        Returns:
+            gains (c,) [nats] and gammas (c,).
+        """
+        layout, chosen = self._layout(), np.asarray(candidates, int)
+        beside = self._beside(self.factor(selection)) if beside is None else beside
+        gains, gammas, kinds = np.empty(len(chosen)), np.empty(len(chosen)), layout.kind[chosen]
+        for kind in np.unique(kinds).tolist():
+            which = np.flatnonzero(kinds == kind)
+            some = chosen[which]
+            ids, rows = layout.ids[kind], layout.row[some]
+            if beside.back is None:
+                block = self._blocks(beside, ids[rows])
+            else:
+                if kind not in beside.shared:  # beside the whole selection, for all groups at once
+                    beside.shared[kind] = self._blocks(beside, ids)
+                back = beside.back[:, ids[rows]].transpose(1, 0, 2)
+                block = beside.shared[kind][rows] + np.swapaxes(back, 1, 2) @ back
+            gains[which], gammas[which] = self._batch(
+                beside, ids[rows], block, layout.positive[some], layout.cap[some], layout.penalty[some],
+                layout.widths[kind],
+            )  # fmt: skip
+        return gains, gammas
+
+    def without_each(self, selection: Mapping[int, float]) -> Callable[[int], Beside]:
+        """What is left of every column beside a selection without one of its groups, for any of them.
+
+        With C the inverse of M, u = G C_B and S = C_BB^-1, leaving out the block B adds u S u' to what is left of the
+        Gram matrix and u S w_B to what is left of X'y.
+        """
+        factor, inside, s = self.factor(selection), Inside(self, selection), self.statistics
+        now = self._beside(factor)
+        over = s.matrix[:, factor.columns] @ inside.inverse
+        shared: dict[int, np.ndarray] = {}
+
+        def without(g: int) -> Beside:
+            block, weights, residual = inside.block(g)
+            own = over[:, inside.at[g]]
+            back = np.linalg.cholesky(0.5 * (block + block.T)).T @ own.T
+            return Beside(residual, now.right + own @ (block @ weights), now.cross, back, shared)
+
+        return without
+
+    def joint_gains(
+        self, selection: Mapping[int, float], together: Sequence[tuple[int, ...]]
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """The same for several groups at once, which share one width."""
+        beside = self._beside(self.factor(selection))
+        gains, gammas = np.empty(len(together)), np.empty(len(together))
+        kinds: dict[tuple[int, int], list[int]] = {}  # of one size and one grid of widths go together
+        columns = [np.concatenate([self.groups[g].columns for g in some]) for some in together]
+        for i, some in enumerate(together):
+            kinds.setdefault((len(columns[i]), id(self.groups[some[0]].widths)), []).append(i)
+        for members in kinds.values():
+            ids = np.array([columns[i] for i in members])
+            gains[members], gammas[members] = self._batch(
+                beside, ids, self._blocks(beside, ids), np.zeros(len(members), bool),
+                np.array([min(self.groups[g].cap for g in together[i]) for i in members]),
+                np.array([sum(self.groups[g].penalty for g in together[i]) for i in members]),
+                self.groups[together[members[0]][0]].widths,
+            )  # fmt: skip
+        return gains, gammas
+
+    def _layout(self) -> Layout:
+        """All groups sorted by size and widths; made anew when groups joined."""
+        if self._laid is None or self._laid.count != len(self.groups):
+            self._laid = Layout.of(self.groups)
+        return self._laid
+
+    def _beside(self, factor: Factor) -> Beside:
+        """What is left of every column beside a selection."""
+        s = self.statistics
+        if not len(factor.columns):
+            return Beside(factor.residual, s.right, np.zeros((0, len(s.right))))
+        cross = lower_solved(factor.lower, s.matrix[factor.columns])
+        return Beside(factor.residual, s.right - factor.solved @ cross, cross)
+
+    def _blocks(self, beside: Beside, ids: np.ndarray) -> np.ndarray:
+        """(b, d, d) Gram matrices of groups with columns ids (b, d), the selection out."""
+        if ids.shape[1] == 1:
+            flat = ids[:, 0]
+            cross = beside.cross[:, flat]
+            return (self.statistics.matrix[flat, flat] - np.einsum("ab,ab->b", cross, cross))[:, None, None]
+        block = self.statistics.matrix[ids[:, :, None], ids[:, None, :]]
+        if len(beside.cross):
+            part = beside.cross[:, ids].transpose(1, 0, 2)  # (b, a, d)
+            block = block - np.swapaxes(part, 1, 2) @ part
+        return block
+
+    def _batch(
+        self, beside: Beside, ids, block, positive, cap, penalty, widths
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """Gains and gammas of groups with columns ids (b, d) and Gram matrices block (b, d, d)."""
+        own = beside.right[ids]
+        if ids.shape[1] == 1:
+            values, squares = block[:, 0], np.where((positive & (own[:, 0] < 0))[:, None], 0.0, own**2)
+        else:
+            values, vectors = np.linalg.eigh(block)
+            squares = (own[:, None, :] @ vectors)[:, 0] ** 2
+        return self.best_width(np.maximum(values, 0.0), squares, beside.residual, cap, penalty, widths)
+
+    def best_width(self, values, squares, residual: float, cap, penalty, widths: np.ndarray):
+        """Gains and gammas of a batch in eigenbases: values, squares (b, d); cap, penalty (b,)."""
+        gamma = widths[:, None, None]
+        stretch = 1.0 + gamma * values
+        taken = squares * gamma / stretch
+        if values.shape[1] == 1:
+            taken, logs = taken[:, :, 0], np.log(stretch[:, :, 0])
+        else:
+            taken, logs = taken.sum(axis=2), np.log(stretch).sum(axis=2)
+        left = np.maximum(residual - taken, 1e-9 * residual)  # (w, b)
+        gain = self.fit(left, residual) - 0.5 * logs
+        # gamma counts in variances of the noise that is left once the group is in
+        variance = 1.0 if self.unit_noise else left / self.statistics.dof
+        gain = np.where(widths[:, None] * variance > np.asarray(cap) ** 2, -np.inf, gain)
+        gain[0] = np.where(np.isneginf(gain).all(axis=0), -1e9, gain[0])
+        best = gain.argmax(axis=0)
+        return gain[best, np.arange(len(best))] - penalty, widths[best]
+
+    def most(self, gram: np.ndarray, right: np.ndarray, residual: float, widths: np.ndarray) -> np.ndarray:
+        """(...,) what groups could bring at most, whatever their width and its price.
+
+        Args:
+            gram: (..., d, d) of what is left of their columns.
+            right: (..., d) of those and what is left of the response.
+        """
+        wide, d = 1.0 / float(widths[-1]), gram.shape[-1]
+        if d == 1:
+            taken = right[..., 0] ** 2 / (np.maximum(gram[..., 0, 0], 0.0) + wide)
+        else:
+            rounding = wide + 1e-12 * np.trace(gram, axis1=-2, axis2=-1)[..., None, None]
+            taken = np.sum(
+                right * np.linalg.solve(gram + rounding * np.eye(d), right[..., None])[..., 0], axis=-1
+            )
+        left = residual - taken
+        return np.asarray(self.fit(np.maximum(left, 1e-9 * residual), residual))
+
+    def losses(self, selection: Mapping[int, float]) -> dict[int, float]:
+        """Evidence lost without each group of a selection [nats], its penalty counted.
+
+        With M = G + Gamma^-1, C its inverse and w the weights, taking out the block B adds w_B' C_BB^-1 w_B to the
+        residual and takes ln |C_BB^-1| + ln |Gamma_B| from the log determinant.
+        """
+        return Inside(self, selection).losses() if selection else {}
+
+    def tuned(
+        self, selection: Mapping[int, float], sweeps: int = 2, bound: Collection[int] = ()
+    ) -> Selection:
+        """Every width at its best given the others; groups that are better off without a width fall out.
+
+        Args:
+            bound: groups that stay in whatever they are worth, beside those that are kept.
+        """
+        now, stays = dict(selection), self.kept.union(bound)
+        for _ in range(sweeps):
+            if not now:
+                break
+            inside = Inside(self, now)
+            for g in list(now):
+                gain, gamma = inside.best_width(g)
+                if gain > 0 or g in stays:
+                    now[g] = gamma
+                    inside.widen(g, gamma)
+                else:
+                    del now[g]
+                    inside.drop(g)
+        return now
+
+    def posterior(self, selection: Mapping[int, float]) -> Posterior:
+        f = self.factor(selection)
+        variance = self.variance(f)
+        if not len(f.columns):
+            return Posterior(f.columns, np.zeros(0), np.zeros((0, 0)), variance)
+        weights = lower_solved(f.lower, f.solved, transposed=True)
+        inverse = inverse_of(f.lower) * variance
+        columns, where = np.unique(f.columns, return_inverse=True)
+        if len(columns) == len(f.columns):
+            return Posterior(f.columns, weights, inverse, variance)
+        # A law and its family both in: the same column twice, its weights add up.
+        merge = np.zeros((len(columns), len(f.columns)))
+        merge[where, np.arange(len(f.columns))] = 1.0
+        covariance = merge @ inverse @ merge.T
+        return Posterior(columns, merge @ weights, covariance, variance)

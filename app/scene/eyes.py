@@ -1,0 +1,44 @@
+"""The eye in the scene: one for all pages of a session, and the one a page begins with."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from app.scene.server import SceneServer
+
+
+class Eyes:
+    """Where the pages of one session look from.
+
+    Args:
+        server: of the session's scene.
+    """
+
+    def __init__(self, server: SceneServer):
+        self._server = server
+        self._view: tuple[np.ndarray, np.ndarray] | None = None
+
+    @property
+    def aspect(self) -> float:
+        """Width over height of the window; before a page has said, that of a usual one."""
+        cameras = [client.camera for client in self._server.get_clients().values()]
+        known = [float(camera.aspect) for camera in cameras if camera.update_timestamp]
+        return max(known[0], 0.2) if known else 1.0
+
+    @property
+    def known(self) -> bool:
+        """True once a page has said how large its window is."""
+        return any(client.camera.update_timestamp for client in self._server.get_clients().values())
+
+    def look(self, eye: np.ndarray, centre: np.ndarray, field: float | None = None) -> None:
+        """Every page looks from here, and so does one that comes."""
+        start: Any = self._server.initial_camera
+        for camera in (start, *(client.camera for client in self._server.get_clients().values())):
+            if field is not None:
+                camera.fov = field
+            if camera is not start:
+                camera.up_direction = (0.0, 0.0, 1.0)
+            camera.position = np.asarray(eye, float)
+            camera.look_at = np.asarray(centre, float)

@@ -1,0 +1,93 @@
+"""What the panel of the two-robot screen says."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from app.calibration.base.report import HALF
+from app.panel import markup as html
+from app.screens._base.run import Run
+from app.units import deg, mm
+
+if TYPE_CHECKING:
+    from app.screens.context import Context
+
+
+def plan(context: Context, run: Run) -> str:
+    """The steps: done, at hand, to come."""
+    rows = []
+    for k, step in enumerate(run.wizard.steps):
+        mark = "●" if k < run.wizard.index else "▶" if k == run.wizard.index else "○"
+        kind = (
+            context.t(f"base.step_{step.kind}", axis=step.axis)
+            if step.axis
+            else context.t(f"base.step_{step.kind}")
+        )
+        count = len(run.wizard.of(step.key))
+        robot = context.t("base.robot_number", number=step.robot)
+        rows.append((f"{mark}  {robot} · {kind}", str(count) if count else ""))
+    return html.table(rows, testid="base-plan")
+
+
+def result(context: Context, run: Run) -> str:
+    """The relation beside the cell's hidden truth, and what the checks say."""
+    t, relation = context.t, run.relation
+    if relation is None:
+        return ""
+    found = list(relation.warnings) + [w for b in run.bases for w in b.warnings]
+    severe = relation.T_base1_base2 is None
+    colour = "red" if severe else "yellow" if found else "green"
+    sentence = (
+        t("base.light_none") if severe else t("base.light_found", miss=f"{mm(relation.region_meeting):.2f}")
+    )
+    out = html.light(colour, sentence, testid="base-light")
+    if relation.T_base1_base2 is not None and (run.exam is None or run.exam.free):
+        truth = run.cell.T_base1_base2
+        gap = relation.T_base1_base2.inverse() @ truth
+        half = HALF * np.sqrt(np.diag(relation.covariance))
+        position, true = mm(relation.T_base1_base2.position), mm(truth.position)
+        rows = [
+            (axis, f"{position[k]:.3f}", f"± {mm(half[k]):.3f}", f"{true[k]:.3f}")
+            for k, axis in enumerate("XYZ")
+        ]
+        out += html.table(rows, head=("mm", t("base.found"), "95%", t("base.truth")), testid="base-relation")
+        out += html.paragraph(
+            t(
+                "base.off",
+                mm=f"{mm(float(np.linalg.norm(gap.position))):.3f}",
+                deg=f"{deg(float(np.linalg.norm(gap.rotvec))):.4f}",
+            ),
+            testid="base-off",
+        )
+    elif relation.T_base1_base2 is not None:  # an exercise: its truth is told at its end
+        half = HALF * np.sqrt(np.diag(relation.covariance))
+        rows = [
+            (axis, f"{mm(relation.T_base1_base2.position[k]):.3f}", f"± {mm(half[k]):.3f}")
+            for k, axis in enumerate("XYZ")
+        ]
+        out += html.table(rows, head=("mm", t("base.found"), "95%"), testid="base-relation")
+    arcs = [
+        (
+            f"{k}.{a.arc.axis}",
+            f"{deg(a.length):.0f}°",
+            f"{mm(a.radius):.1f}",
+            f"{mm(a.rms):.3f}",
+            f"{deg(HALF * a.sigma_axis):.4f}°",
+        )
+        for k, b in enumerate(run.bases, 1)
+        for a in b.arcs
+    ]
+    out += html.table(
+        arcs, head=(t("base.axis"), t("base.arc"), "r mm", "rms mm", "± 95%"), testid="base-arcs"
+    )
+    out += (
+        html.notes(
+            [("red" if w.severe else "yellow", w.said(context.language)) for w in found],
+            testid="base-warnings",
+        )
+        if found
+        else ""
+    )
+    return out

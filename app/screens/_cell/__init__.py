@@ -1,0 +1,4 @@
+"""Parts of the setup screen.
+
+user.py    the user frame: typed, or taught by three points
+"""

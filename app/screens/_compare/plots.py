@@ -1,0 +1,73 @@
+"""The report's pictures inside a panel: the same drawing, its style confined to the picture."""
+
+from __future__ import annotations
+
+import re
+from functools import cache
+
+from app.diagnosis.report.budget import budget, budget_sentence, unexplained_sentence
+from app.diagnosis.report.curves import Curve
+from app.diagnosis.report.drawing.bars import before_after_bars
+from app.diagnosis.report.drawing.budget_bar import budget_bar
+from app.diagnosis.report.drawing.scatter import driver_plot
+from app.diagnosis.report.drawing.traces import trace_plot
+from app.diagnosis.report.events import events_of
+from app.diagnosis.report.picture_words import translated
+from app.diagnosis.report.style import PICTURES
+from app.diagnosis.result import Diagnosis, Evidence
+from app.panel import markup as html
+from app.phrases import FALLBACK
+
+PANEL_WIDTH = 340.0
+
+
+def share_of_families(diagnosis: Diagnosis, language: str = FALLBACK) -> str:
+    """The error budget: the sentence, and the bar with its legend; "" where no families were measured."""
+    drawn = budget_bar(budget(diagnosis), language, width=PANEL_WIDTH)
+    if not drawn:
+        return ""
+    sentence = html.paragraph(budget_sentence(diagnosis, language), testid="compare-budget", strong=True)
+    left = unexplained_sentence(diagnosis, language)
+    return sentence + _framed(drawn, "compare-budget-bar", language) + (html.paragraph(left) if left else "")
+
+
+def bars(diagnosis: Diagnosis, language: str = FALLBACK) -> str:
+    """Error before and after against the noise."""
+    return _framed(before_after_bars(diagnosis, width=PANEL_WIDTH), "compare-bars", language)
+
+
+def curve(of: Curve, language: str = FALLBACK) -> str:
+    """Residual against one driver."""
+    return _framed(driver_plot(of), "compare-curve", language)
+
+
+def trace(
+    evidence: Evidence,
+    joint: int,
+    diagnosis: Diagnosis | None,
+    at: float | None,
+    language: str = FALLBACK,
+) -> str:
+    """Torque of one joint (from 0) over time, the shown moment marked."""
+    events = events_of(diagnosis) if diagnosis is not None else ()
+    drawn = trace_plot(evidence, joint, events, labelled=True, width=PANEL_WIDTH, at=at)
+    return _framed(drawn, "compare-trace", language)
+
+
+def _framed(picture: str, testid: str, language: str) -> str:
+    """On white in light and dark pages alike: the colours were chosen for paper."""
+    return html.Markup(  # drawn by ours, every text in it escaped where it is drawn (report/drawing/svg.py)
+        f'<div class="tf-plot" data-testid="{testid}" style="--before:#d97b16;--after:#1866ad;--noise:#7b8794;'
+        f'background:#fff;border-radius:4px;margin:4px 8px;padding:3px">'
+        f"<style>{_confined()}</style>{translated(picture, language)}</div>"
+    )
+
+
+@cache
+def _confined() -> str:
+    """Every rule of the pictures' style, for what is inside `.tf-plot` only."""
+    rules = re.findall(r"([^{}]+)\{([^}]*)\}", PICTURES)
+    return "".join(
+        ",".join(f".tf-plot {one.strip()}" for one in selector.split(",")) + "{" + body + "}"
+        for selector, body in rules
+    )

@@ -1,0 +1,96 @@
+"""The result: shown, accepted or cancelled; then the turn about it; export and report."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from app.screens._tool.giving import send_frame, send_report
+from app.screens._tool.result import light_html, result_html
+from app.screens._tool.verifying import Verifying
+from app.screens._tool.words import Words
+from app.session import SessionState
+from app.session.actions import Accept, Cancel
+from app.session.state import accepted
+
+if TYPE_CHECKING:
+    from app.screens.context import Context
+
+
+class Deciding:
+    """A folder, visible while there is a result.
+
+    Args:
+        context: where it is shown.
+    """
+
+    def __init__(self, context: Context):
+        self._context = context
+        ui, t = context.ui, context.t
+        self._folder = ui.add_folder(t("tool.result"), visible=False)
+        with self._folder:
+            self.light = ui.add_html("")
+            number = len(context.session.state.tools) + 1
+            self._name = ui.add_text(t("tool.name"), t("tool.first_name", number=number))
+            self._decide = ui.add_buttons(t("tool.decide"), (t("tool.accept"), t("tool.cancel")), rank="main")
+            self._again = ui.add_buttons(
+                t("tool.then"), (t("tool.verify"), t("tool.again")), visible=False, rank="main"
+            )
+            self.verifying = Verifying(context)
+            self.page = ui.add_html("")
+            self._formats = Words(context).formats()
+            self._format = ui.add_choice(t("tool.format"), tuple(self._formats))
+            give = ui.add_buttons(t("tool.give"), (t("tool.export"), t("tool.report")))
+        self._doubted: object = None  # a result that the light warned of, and that was to be accepted once
+        decide = {t("tool.accept"): self.accept, t("tool.sure"): self.accept, t("tool.cancel"): self._cancel}
+        context.chosen(self._decide, lambda label: decide[label]())
+        then = {t("tool.verify"): self.verifying.run, t("tool.again"): self._cancel}
+        context.chosen(self._again, lambda label: then[label]())
+        gives = {
+            t("tool.export"): lambda: send_frame(context, self._formats[self._format.value], self._tool_name),
+            t("tool.report"): lambda: send_report(context, self._tool_name),
+        }
+        context.chosen(give, lambda label: gives[label]())
+
+    def accept(self) -> None:
+        """The result becomes the active tool, under the name in the field."""
+        context, t = self._context, self._context.t
+        result = context.session.state.result
+        if result is not None and result.light.colour == "red" and self._doubted is not result:
+            self._doubted = result
+            self._decide.options = (t("tool.sure"), t("tool.cancel"))
+            context.say("warning", t("message.calculated_red"))
+            return
+        state = context.do(Accept(self._name.value))
+        if state.tool is not None:
+            context.stage.view("whole")
+            context.say("good", context.t("message.accepted", name=state.tool.name))
+
+    def refresh(self, state: SessionState) -> None:
+        """Shows the result, with what can be done with it next."""
+        taken = accepted(state)
+        self._folder.visible = state.result is not None
+        self._name.visible = self._decide.visible = not taken
+        self._again.visible = taken
+        self.verifying.refresh(state)
+        if state.result is not self._doubted:
+            self._doubted = None
+            self._decide.options = (self._context.t("tool.accept"), self._context.t("tool.cancel"))
+        if state.result is not None:
+            self.light.content = light_html(state.result, self._context.language)
+            self.page.content = result_html(self._context, state.result)
+
+    def numbers(self) -> None:
+        """The arm moved."""
+        self.verifying.numbers()
+
+    @property
+    def _tool_name(self) -> str:
+        state = self._context.session.state
+        return state.tool.name if state.tool is not None and accepted(state) else self._name.value
+
+    def _cancel(self) -> None:
+        context = self._context
+        context.do(Cancel())
+        context.stage.view("whole")
+        self._name.value = context.t("tool.first_name", number=len(context.session.state.tools) + 1)
+        context.say("info", context.t("message.cancelled"))

@@ -1,0 +1,221 @@
+"""The frame that nothing hides: hold and release by pointer, key and touch, the stop from everywhere, typed values."""
+
+import time
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+from app.session.motion import enabling
+
+TRIES = 30
+
+pytestmark = pytest.mark.browser
+
+#: Whatever lies where the stop is; and every control of the frame whose middle is covered or cut off.
+#: The links that somebody with an account has in the top line.
+_WITH_ACCOUNT = """() => {
+    for (const [key, words] of [["beside", "Lessons"], ["person", "A"]]) {
+        const link = document.getElementById(key);
+        link.hidden = false;
+        link.textContent = words;
+    }
+}"""
+#: Facts of the top line that touch another, or of which, cut off, less than five letters are left.
+_ON_EACH_OTHER = """() => {
+    const boxes = [...document.querySelectorAll("#facts div")].filter((one) => one.checkVisibility())
+        .map((one) => [one.textContent.trim(), one.getBoundingClientRect(),
+            [...one.children].some((words) => words.scrollWidth > words.clientWidth)]);
+    return boxes.filter(([, box, cut], k) => (cut && box.width < 36) || (k && box.left < boxes[k - 1][1].right))
+        .map(([words]) => words);
+}"""
+_STOP = """() => { const box = document.getElementById('estop').getBoundingClientRect();
+    return document.elementFromPoint(box.x + box.width / 2, box.y + box.height / 2)?.id; }"""
+_HIDDEN = """() => [...document.querySelectorAll('#bar button, #bar dd, #enable')].filter(part => {
+    const box = part.getBoundingClientRect();
+    if (!part.offsetParent || !box.width) return false;
+    const at = document.elementFromPoint(box.x + box.width / 2, box.y + box.height / 2);
+    return box.right > innerWidth + 1 || !(part.contains(at) || at?.contains(part));
+}).map(part => part.id || part.className)"""
+#: Buttons that a finger would miss.
+_SMALL = """() => [...document.querySelectorAll('button, select')]
+    .filter(part => part.offsetParent && part.getBoundingClientRect().height < 43)
+    .map(part => part.textContent || part.id)"""
+
+
+def jog_button(person, name):
+    return person.page.get_by_role("button", name=name, exact=True)
+
+
+def middle(locator):
+    box = locator.bounding_box()
+    return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+
+
+def test_a_button_moves_while_both_are_held_and_stops_with_either(sit_down, monkeypatch):
+    monkeypatch.setattr(enabling, "SILENCE", 3.0)
+    person = sit_down()
+    page, start = person.page, person.q
+    page.mouse.move(*middle(jog_button(person, "J1 plus")))
+    page.mouse.down()
+    page.wait_for_timeout(300)
+    assert np.array_equal(person.q, start)  # the switch is not held
+    person.reads("message-warning", "enabling switch")
+    page.mouse.up()
+    with person.holding():
+        page.mouse.down()
+        person.until(lambda: person.q[0] > start[0] + 0.02, "axis 1 to move")
+        person.picture("jogging")
+        page.mouse.up()
+        person.until(lambda: person.context.drive.how == "standing", "the arm to stand")
+        page.mouse.down()
+        person.until(lambda: person.context.worker.running("jog"), "axis 1 to move again")
+    person.until(lambda: not person.context.worker.running("jog"), "the arm to stand without the switch")
+    page.mouse.up()
+    assert not np.delete(person.q - start, 0).any() and not person.faults
+
+
+def test_keys_choose_hold_release_and_stop_even_while_a_field_has_the_focus(sit_down, monkeypatch):
+    monkeypatch.setattr(enabling, "SILENCE", 3.0)
+    person = sit_down()
+    page, start = person.page, person.q
+    page.keyboard.press("3")
+    with person.holding():
+        page.keyboard.down("q")
+        person.until(lambda: person.q[2] < start[2] - 0.02, "axis 3 to move")
+        page.keyboard.up("q")
+        person.until(lambda: person.context.drive.how == "standing", "the arm to stand")
+    person.screen("training")
+    field = page.get_by_label("Your name", exact=True)
+    field.fill("")
+    field.type("a b")
+    assert field.input_value() == "a b" and not person.context.drive.live
+    page.keyboard.press("Escape")
+    person.until(lambda: person.context.drive.enabling.stopped, "the stop")
+    person.reads("status-state", "E-STOP")
+    person.reads("message-error", "EMERGENCY STOP")
+    stands = person.q
+    page.get_by_test_id("estop").click()
+    person.until(lambda: not person.context.drive.enabling.stopped, "the release")
+    assert np.array_equal(person.q, stands) and not person.faults
+
+
+def test_two_fingers_hold_the_switch_and_a_button(sit_down, monkeypatch):
+    monkeypatch.setattr(enabling, "SILENCE", 3.0)
+    person = sit_down(touch=True)
+    start = person.q
+    fingers = [middle(person.page.get_by_test_id("enable")), middle(jog_button(person, "J2 minus"))]
+    touch = person.page.context.new_cdp_session(person.page)
+    points = [{"x": x, "y": y, "id": k} for k, (x, y) in enumerate(fingers)]
+    touch.send("Input.dispatchTouchEvent", {"type": "touchStart", "touchPoints": points[:1]})
+    touch.send("Input.dispatchTouchEvent", {"type": "touchStart", "touchPoints": points})
+    person.until(lambda: person.q[1] < start[1] - 0.02, "axis 2 to move")
+    touch.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
+    person.until(lambda: person.context.drive.how == "standing", "the arm to stand")
+
+
+def test_a_page_that_freezes_stops_the_arm_within_a_fifth_of_a_second(sit_down):
+    person = sit_down()
+    page, show, shown = person.page, person.context.drive.show, []
+
+    def seen(q):
+        show(q)
+        shown.append(time.monotonic())
+
+    person.context.drive.show = seen
+    heard, beat = [], person.context.drive.enabling.beat
+
+    def word(held, **rest):
+        heard.append(time.monotonic())
+        return beat(held, **rest)
+
+    person.context.drive.enabling.beat = word
+    for _ in range(TRIES):  # on a busy machine the page falls silent by itself
+        page.keyboard.down("Space")
+        page.keyboard.down("w")
+        page.wait_for_timeout(300)
+        if person.context.drive.live and shown:
+            break
+        page.keyboard.up("w")
+        page.keyboard.up("Space")
+        page.wait_for_timeout(100)
+    page.evaluate("() => { const end = performance.now() + 700; while (performance.now() < end); }")
+    page.keyboard.up("w")
+    page.keyboard.up("Space")
+    person.until(lambda: not person.context.worker.running("jog"), "the stand-still")
+    gaps = [(b - a, a) for a, b in pairwise(heard) if b - a > 0.3]
+    assert gaps, "the page did not freeze"
+    silent_from = gaps[-1][1]
+    assert max(t for t in shown if t < silent_from + 0.6) - silent_from <= 0.2
+
+
+def test_a_typed_value_waits_for_the_switch_and_the_arm_goes_there(sit_down, brisk):
+    person = sit_down()
+    person.page.get_by_role("button", name="Type a value for J1", exact=True).click()
+    field = person.page.get_by_role("spinbutton", name="Type a value for J1", exact=True)
+    field.fill("12.5")
+    field.press("Enter")
+    person.until(lambda: person.context.drive.how == "waiting", "the motion that waits")
+    person.page.locator("#errand-said").filter(has_text="axis 1").wait_for()
+    with person.holding():
+        person.at_rest()
+    assert np.degrees(person.q[0]) == pytest.approx(12.5, abs=1e-6)
+    person.page.get_by_text("12.50°", exact=True).wait_for()
+
+
+def test_a_reload_and_a_second_tab(sit_down):
+    person = sit_down()
+    person.click("Record Touch 1")
+    person.until(lambda: "touch1" in person.state.captures, "the first point")
+    live = person.live
+    person.page.reload()
+    person.page.locator(".done[data-testid=row-touch1]").wait_for()
+    person.come_back()
+    assert person.live is live
+    second = sit_down(robot=None, context=person.page.context)
+    assert second.live is live
+    person.page.get_by_text("This session goes on in another tab.", exact=False).wait_for()
+    second.click("Record Touch 2")
+    second.until(lambda: "touch2" in second.state.captures, "the second point")
+    person.click("Continue here")
+    person.page.locator(".done[data-testid=row-touch2]").wait_for()
+    second.page.get_by_text("This session goes on in another tab.", exact=False).wait_for()
+
+
+@pytest.mark.parametrize(
+    "size", [(1280, 800), (1024, 768), (820, 1180), (390, 844)], ids=lambda s: f"{s[0]}x{s[1]}"
+)
+@pytest.mark.parametrize("language", ["en", "zh"])
+def test_nothing_of_the_frame_is_hidden_or_cut_off(sit_down, size, language):
+    person = sit_down("jby50", screen={"width": size[0], "height": size[1]})
+    if language == "zh":
+        person.live.choose("language", "zh")
+        person.page.get_by_text("使能", exact=True).first.wait_for()
+    person.picture(f"size_{size[0]}_{language}")
+    assert person.page.evaluate(_STOP) == "estop"
+    assert person.page.evaluate("document.documentElement.scrollWidth <= innerWidth")
+    person.until(lambda: person.page.evaluate(_HIDDEN) == [], "nothing to be hidden")
+    small = person.page.evaluate(_SMALL)
+    assert small == []
+    assert not person.faults
+
+
+@pytest.mark.parametrize("size", [(1280, 800), (1024, 768), (820, 1180), (390, 844)], ids=lambda s: f"{s[0]}")
+def test_with_an_account_the_facts_still_stand_beside_each_other(sit_down, size):
+    person = sit_down("jby50", screen={"width": size[0], "height": size[1]})
+    person.page.evaluate(_WITH_ACCOUNT)
+    person.page.wait_for_timeout(100)
+    person.picture(f"account_bar_{size[0]}")
+    assert person.page.evaluate(_ON_EACH_OTHER) == []
+    assert person.page.evaluate(_STOP) == "estop"
+    assert person.page.evaluate("document.documentElement.scrollWidth <= innerWidth")
+
+
+def test_dark_and_light_are_remembered_by_the_browser(sit_down):
+    person = sit_down()
+    assert person.page.evaluate("document.documentElement.dataset.theme") == "light"
+    person.page.locator("#theme").click()
+    person.until(lambda: person.context.look.dark, "the dark page")
+    person.page.locator("html[data-theme=dark]").wait_for()
+    again = sit_down(robot=None, context=person.page.context)
+    again.page.locator("html[data-theme=dark]").wait_for()

@@ -1,0 +1,43 @@
+"""What holds for every test."""
+
+import gc
+
+import pytest
+from argon2 import PasswordHasher
+
+from app.people import secret
+from tests.session.postgresql import any_postgresql
+
+#: As people's are made: what is tried there is told apart from everywhere else.
+AT_FULL_COST, NOBODY_AT_FULL_COST = secret._HASHER, secret._NOBODY
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(items):
+    """Where several processes share the tests, those of a file stay together: so does what they set up."""
+    for item in items:
+        if item.get_closest_marker("xdist_group") is None:
+            item.add_marker(pytest.mark.xdist_group(item.location[0]))
+
+
+def pytest_collection_finish():
+    """What all tests have loaded is not looked through again whenever garbage is collected."""
+    gc.collect()
+    gc.freeze()
+
+
+@pytest.fixture(scope="session", autouse=True)
+def cheap():
+    """Passwords and PINs are hashed at the least cost there is: tests are not about how long one takes."""
+    hasher = PasswordHasher(1, 8, 1)
+    with pytest.MonkeyPatch.context() as patched:
+        patched.setattr(secret, "_HASHER", hasher)
+        patched.setattr(secret, "_NOBODY", hasher.hash("nobody's"))
+        yield
+
+
+@pytest.fixture(scope="session")
+def postgresql():
+    """URL of a server for all tests of this process; each makes a schema of its own."""
+    with any_postgresql() as url:
+        yield url

@@ -1,9 +1,0 @@
-import pytest
-
-from tests.diagnosis.static.arms import write_arm
-
-
-@pytest.fixture(scope="session")
-def arm(tmp_path_factory):
-    """A six-axis arm with masses, no two neighbouring axes alike."""
-    return write_arm(tmp_path_factory.mktemp("arm") / "arm.urdf")

@@ -1,0 +1,76 @@
+"""Who only looks on gets no drag handle, and everything else as viser sends it."""
+
+import time
+
+import msgspec
+import numpy as np
+import pytest
+import zstandard
+from websockets.sync.client import connect
+
+from app.scene.looked_on import without_handle
+from app.scene.server import SECRET_ORIGIN, start_scene_server
+
+PROTOCOL = "viser-v1.1.1"
+
+
+@pytest.fixture
+def server():
+    server = start_scene_server()
+    yield server
+    server.stop()
+
+
+def frames(server, seconds=1.0):
+    """What viser sends to somebody who says nothing."""
+    out, end = [], time.monotonic() + seconds
+    with connect(
+        f"ws://127.0.0.1:{server.get_port()}", subprotocols=[PROTOCOL], origin=SECRET_ORIGIN, max_size=None
+    ) as socket:
+        while time.monotonic() < end:
+            try:
+                out.append(socket.recv(timeout=0.2))
+            except TimeoutError:
+                continue
+    return out
+
+
+def opened(frame):
+    """(messages, their plain numbers)."""
+    size, packed = (int.from_bytes(frame[k : k + 8], "little") for k in (0, 8))
+    words = zstandard.ZstdDecompressor().decompress(frame[16 : 16 + packed], max_output_size=size)
+    said, at, numbers = msgspec.msgpack.decode(words), 16 + packed, []
+    for length in said["binaryBufferLengths"]:
+        at += -at % 8
+        numbers.append(bytes(frame[at : at + length]))
+        at += length
+    assert at == len(frame) or not numbers
+    return said["messages"], numbers
+
+
+def test_the_handle_is_left_out_and_the_rest_stays(server):
+    mesh = np.arange(36, dtype=np.float32).reshape(12, 3)
+    server.scene.add_mesh_simple("/arm", mesh, np.arange(12, dtype=np.uint32).reshape(4, 3))
+    server.scene.add_transform_controls("/handle", scale=0.3)
+    plain = frames(server)
+    changed = [without_handle(frame) for frame in plain]
+    kinds = [m["type"] for frame in plain for m in opened(frame)[0]]
+    shown = [m for frame in changed for m in opened(frame)[0]]
+    assert "TransformControlsMessage" in kinds and "TransformControlsMessage" not in {
+        m["type"] for m in shown
+    }
+    assert len(shown) == len(kinds) and any(m.get("name") == "/handle" for m in shown)
+    before = [n for frame in plain for n in opened(frame)[1]]
+    assert mesh.tobytes() in before and before == [n for frame in changed for n in opened(frame)[1]]
+
+
+def test_a_frame_without_a_handle_is_the_very_same(server):
+    server.scene.add_frame("/a")
+    for frame in frames(server):
+        assert without_handle(frame) is frame
+
+
+def test_viser_sends_the_whole_scene_to_somebody_who_says_nothing_and_does_not_count_him(server):
+    server.scene.add_frame("/a")
+    names = [m.get("name") for frame in frames(server) for m in opened(frame)[0]]
+    assert "/a" in names and not server.get_clients()

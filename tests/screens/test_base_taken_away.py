@@ -1,0 +1,77 @@
+"""Two robots: the procedure can be stopped, what was found is exported and printed, and no truth goes with it."""
+
+import json
+import re
+
+import numpy as np
+import pytest
+
+from app.session.actions import OpenCell
+from app.simulation.tracker_cell import make_cell
+from app.units import mm
+from tests.desk import until
+
+SEED = 5
+
+
+@pytest.fixture
+def opened(sit_at, brisk):
+    desk = sit_at(robot="irb120")
+    desk.does(lambda: desk.context.do(OpenCell("irb120", "ur10e", SEED)))
+    return desk
+
+
+def sent(desk):
+    return {found.name: found.content for found in desk.live.downloads()}
+
+
+def test_a_procedure_is_stopped_where_it_is_and_goes_on_from_there(opened):
+    desk, view = opened, opened.view("run")
+    with desk.holding():
+        desk.does(lambda: view._start(whole=True))
+        assert "Stop the procedure" in desk.shown()
+        until(lambda: len(view.run.wizard.records) > 2, "a few points")
+        desk.press("Stop the procedure")
+        stood = view.run.wizard.index, len(view.run.wizard.records)
+        assert not desk.context.worker.running("base")
+    assert "Stop the procedure" not in desk.shown() and "stopped" in desk.said[1]
+    assert (view.run.wizard.index, len(view.run.wizard.records)) == stood
+    with desk.holding():
+        desk.does(lambda: view._start(whole=True))
+        until(lambda: view.run.relation is not None, "the relation")
+    desk.rests()
+    assert "Stop the procedure" not in desk.shown()
+
+
+def test_the_emergency_stop_ends_it_and_takes_its_button_away(opened):
+    desk, view = opened, opened.view("run")
+    with desk.holding():
+        desk.does(lambda: view._start(whole=True))
+        desk.live.stop()
+    desk.idle()
+    assert not desk.context.worker.running("base") and "Stop the procedure" not in desk.shown()
+
+
+def test_the_relation_is_exported_and_printed_in_both_languages_without_the_truth(opened):
+    desk, view = opened, opened.view("run")
+    assert "Export the relation" not in desk.shown()
+    with desk.holding():
+        desk.does(lambda: view._start(whole=True))
+        until(lambda: view.run.relation is not None, "the relation")
+    desk.rests()
+    found = view.run.relation.T_base1_base2
+    desk.press("Take away", "Export the relation")
+    told = json.loads(sent(desk)["two_robots.json"])
+    assert np.allclose(np.array(told["T_base1_base2"])[:3, 3], mm(found.position), atol=1e-6)
+    assert told["format"] == "teachframe.base/1"
+    truth = make_cell("irb120", "ur10e", SEED).T_base1_base2.position
+    for language, word in (("en", "95%"), ("zh", "95%")):
+        desk.live.choose("language", language)
+        desk.idle()
+        label = {"en": ("Take away", "Report to print"), "zh": ("取走", "打印报告")}[language]
+        desk.press(*label)
+        page = sent(desk)["two_robots.html"].decode()
+        assert f'lang="{language}"' in page and word in page
+        numbers = {float(n) for n in re.findall(r"-?\d+\.\d+", page)}
+        assert all(min(abs(n - v) for n in numbers) < 2e-3 for v in mm(found.position))
+        assert not all(min(abs(n - v) for n in numbers) < 5e-4 for v in mm(truth))
