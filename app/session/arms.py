@@ -85,6 +85,15 @@ def unpacked_arm(arm: Packed, folder: Path) -> str:
         packed.unlink()
 
 
+class _Unpacked:
+    """The folder of unpacked arms; it is there as long as somebody holds it, and a model that was read from it does: its
+    meshes are opened when it is first drawn."""
+
+    def __init__(self) -> None:
+        self.path = Path(tempfile.mkdtemp(prefix="teachframe-arms-"))
+        weakref.finalize(self, shutil.rmtree, self.path, ignore_errors=True)
+
+
 class Arms:
     """The arms of a database.
 
@@ -94,10 +103,9 @@ class Arms:
 
     def __init__(self, database: Database):
         self._database = database
-        self._folder = Path(tempfile.mkdtemp(prefix="teachframe-arms-"))
+        self._unpacked = _Unpacked()
         self._lock = threading.Lock()
         self._places: dict[str, tuple[str, str]] = {}  # name -> address, title
-        weakref.finalize(self, shutil.rmtree, self._folder, ignore_errors=True)
 
     def of(self, owner: str) -> dict[str, str]:
         """Name -> title of a person's arms, the oldest first."""
@@ -155,16 +163,18 @@ class Arms:
             FileFormatError: what is kept is damaged.
         """
         address, title = self._place(name)
-        return replace(load_robot(address), name=title)
+        robot = replace(load_robot(address), name=title)
+        robot.kept["unpacked"] = self._unpacked
+        return robot
 
     def _place(self, name: str) -> tuple[str, str]:
         """Address and title of an arm; unpacked once."""
         with self._lock:
             if name not in self._places:
-                self._places[name] = self._unpacked(name)
+                self._places[name] = self._unpack(name)
             return self._places[name]
 
-    def _unpacked(self, name: str) -> tuple[str, str]:
+    def _unpack(self, name: str) -> tuple[str, str]:
         one = select(ARMS.c.owner, ARMS.c.title, ARMS.c.chain).where(ARMS.c.name == name).limit(1)
         with self._database.begin() as connection:
             row = connection.execute(one).first()
@@ -175,7 +185,7 @@ class Arms:
         arm = Packed(row.title, row.chain, b"".join(pieces))
         if arm.name != name:
             raise FileFormatError("what is kept of this robot is damaged", file=name)
-        return unpacked_arm(arm, self._folder), arm.title
+        return unpacked_arm(arm, self._unpacked.path), arm.title
 
     @staticmethod
     def _take_away(connection, owner: str, name: str) -> None:

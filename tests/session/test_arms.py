@@ -1,5 +1,6 @@
 """Arms that people brought: packed without loss, kept with the sessions, in backups, replayed by the command line."""
 
+import gc
 import json
 
 import numpy as np
@@ -105,3 +106,12 @@ def test_elsewhere_its_description_stands_for_it(tmp_path, capsys):
     assert got.code == 2 and got.err.count("\n") == 1 and name in got.err
     got = ran("replay", "s.jsonl", "--robot", "arm.urdf", folder=tmp_path)
     assert got.code == 0 and "arm" in got.out
+
+
+def test_a_model_is_drawn_after_the_store_it_came_from_is_gone(tmp_path, arm):
+    arms = Arms(Store(tmp_path / "data").database)
+    model = arms.model(arms.keep("tom", arm))
+    del arms
+    Arms(Store(tmp_path / "other").database).keep("tom", arm)  # of another store of this process: sessions use this one
+    gc.collect()
+    assert missing_meshes(model) == () and "mesh" in {shape.kind for shape in robot_shapes(model)}
