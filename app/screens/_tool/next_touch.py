@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
@@ -28,6 +29,8 @@ if TYPE_CHECKING:
 #: Modes whose tool point comes from fewer touches than this do not gain by the orientations of the touches.
 _LEAST = 3
 _WRIST = 3  # joints
+#: Held by whoever works one out: threads that reckon at once only take turns, and each turn keeps the stop waiting.
+_ONE = threading.Lock()
 
 
 class NextTouch:
@@ -122,8 +125,9 @@ class NextTouch:
 
         def work() -> Proposal | DegenerateGeometryError:
             """With the wrist as at the touches made, where that leaves something to propose."""
-            found = best(lambda q: (bool(side) and flipped(q)) or hindered(q))
-            return best(hindered) if side and isinstance(found, DegenerateGeometryError) else found
+            with _ONE:
+                found = best(lambda q: (bool(side) and flipped(q)) or hindered(q))
+                return best(hindered) if side and isinstance(found, DegenerateGeometryError) else found
 
         def done(found: Proposal | DegenerateGeometryError) -> None:
             if self._closed or asked is not self._asked:

@@ -17,6 +17,11 @@ Job = Callable[[], object]
 #: Ticks a second of motions that run by themselves.
 TICK_HZ = 30.0
 
+#: Held for a tick of any arm of this process. Threads that reckon at once only take the interpreter from each other, and
+#: each that wants it adds to what a word of a page waits: 20 arms that jog at once made that half a second, and the
+#: switch of some fell silent.
+_TICKING = threading.Lock()
+
 
 @dataclass
 class _Entry:
@@ -144,8 +149,9 @@ class Worker:
                 self._around(job)
             now = time.monotonic()
             if self._motions and now >= next_tick:
-                for name, steps in list(self._motions.items()):
-                    self._around(lambda name=name, steps=steps: self._advance(name, steps))
+                with _TICKING:
+                    for name, steps in list(self._motions.items()):
+                        self._around(lambda name=name, steps=steps: self._advance(name, steps))
                 next_tick = max(next_tick + 1.0 / TICK_HZ, now)
             with self._wake:
                 self._busy = False
