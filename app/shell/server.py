@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+import gc
 import socket
 import threading
 import time
@@ -264,7 +265,10 @@ class PendantServer:
         return self._thread.is_alive()
 
     def wait(self) -> None:
-        """Serves until somebody interrupts."""
+        """Serves until somebody interrupts; what is loaded so far is no longer looked through for garbage, since that
+        keeps every page waiting for a twentieth of a second."""
+        gc.collect()
+        gc.freeze()
         while self._thread.is_alive():
             self._thread.join(timeout=3600.0)
 

@@ -5,6 +5,7 @@ says how busy that is.
 """
 
 import asyncio
+import gc
 import http.client
 import threading
 import time
@@ -34,7 +35,10 @@ def server(tmp_path):
 
 @pytest.fixture
 def turns(monkeypatch):
-    """(seconds of the processor, what was called) of every turn of a loop on the server's thread."""
+    """(seconds of the processor, what was called) of every turn of a loop on the server's thread; what tests before this
+    one left is not looked through for garbage in it."""
+    gc.collect()
+    gc.freeze()
     seen, run = [], asyncio.events.Handle._run
 
     def measured(handle):
