@@ -3,20 +3,21 @@
 from __future__ import annotations
 
 import xml.etree.ElementTree as ET
-from collections.abc import Callable
 from copy import deepcopy
 from pathlib import Path
 
 import numpy as np
 
+from app.diagnosis import effects
+from app.diagnosis.effects.described import Body, Change, InJoint, Placed
 from app.diagnosis.model import ModelEffect, SavedModel
 from app.errors import InputError
 from app.files import write_bytes
 from app.geometry import convention, exp_so3
 from app.kinematics import RobotModel
 
-#: What a URDF holds exactly: where the joints stand.
-GEOMETRIC = ("joint_zero", "link_length", "link_twist")
+#: What `<dynamics>` of a joint holds.
+_DYNAMICS = {"damping", "friction"}
 
 
 def save_corrected_urdf(
@@ -37,7 +38,7 @@ def save_corrected_urdf(
         InputError: nothing of the model can be written, or the file cannot.
     """
     root = _description(robot)
-    left_out = [e for e in model.effects if not _written(root, robot, e)]
+    left_out = [e for e in model.effects if not _written(root, robot, e, model.kind)]
     if strict and len(left_out) == len(model.effects):
         raise InputError(
             "none of what was found has a word in a URDF: " + ", ".join(e.effect for e in left_out),
@@ -60,49 +61,28 @@ def _description(robot: RobotModel) -> ET.Element:
     return root
 
 
-def _written(root: ET.Element, robot: RobotModel, effect: ModelEffect) -> bool:
-    write = _WRITERS.get(effect.effect)
-    return write is not None and bool(effect.parameters) and write(root, robot, effect)
+def _written(root: ET.Element, robot: RobotModel, effect: ModelEffect, kind: str) -> bool:
+    """True where every part of the effect has a word, and it is written."""
+    law = effects.named(effect.effect, kind)
+    if law is None or not effect.parameters:
+        return False
+    changes = law.described(robot, effect.where, effect.parameters)
+    return bool(changes) and all(_put(root, robot, change) for change in changes)
 
 
-def _joint_zero(root: ET.Element, robot: RobotModel, effect: ModelEffect) -> bool:
-    k, amount = int(effect.where["joint"]) - 1, _only(effect)
-    axis = robot.chain.axes[k] * amount
-    if robot.joints[k].prismatic:
-        return _place(root, robot, k, shift=axis)
-    return _place(root, robot, k, turn=axis)
+def _put(root: ET.Element, robot: RobotModel, change: Change) -> bool:
+    if isinstance(change, Placed):
+        return _place(root, robot, change)
+    if isinstance(change, Body):
+        return _body(root, robot, change)
+    if isinstance(change, InJoint) and change.more.keys() <= _DYNAMICS:
+        return _dynamics(root, robot, change)
+    return False
 
 
-def _link_length(root: ET.Element, robot: RobotModel, effect: ModelEffect) -> bool:
-    vector = _link_vector(robot, effect)
-    return vector is not None and _place(root, robot, int(effect.where["link"]), shift=vector)
-
-
-def _link_twist(root: ET.Element, robot: RobotModel, effect: ModelEffect) -> bool:
-    vector = _link_vector(robot, effect)
-    return vector is not None and _place(root, robot, int(effect.where["link"]), turn=vector)
-
-
-def _link_vector(robot: RobotModel, effect: ModelEffect) -> np.ndarray | None:
-    """Displacement of the placement behind the link, in that placement's frame."""
-    from app.diagnosis.models.kinematic.geometry import AXES, link_axes
-
-    axis = effect.where.get("axis")
-    if axis not in AXES:
-        return None
-    return link_axes(robot.chain).vectors[int(effect.where["link"]) - 1, AXES.index(axis)] * _only(effect)
-
-
-def _place(
-    root: ET.Element,
-    robot: RobotModel,
-    index: int,
-    *,
-    shift: np.ndarray | None = None,
-    turn: np.ndarray | None = None,
-) -> bool:
-    """origin -> origin @ Trans(shift) @ Rot(turn), of joint `index` (from 0; one past the last: the flange)."""
-    joint = _joint_element(root, robot, index)
+def _place(root: ET.Element, robot: RobotModel, change: Placed) -> bool:
+    """origin -> origin @ Trans(shift) @ Rot(turn)."""
+    joint = _joint_element(root, robot, change.joint - 1)
     if joint is None:
         return False
     origin = joint.find("origin")
@@ -111,10 +91,10 @@ def _place(
     angles = convention("ZYX")  # rpy backwards: Rz(yaw) Ry(pitch) Rx(roll)
     position = _triple(origin.get("xyz"))
     rotation = angles.to_rotation(_triple(origin.get("rpy"))[::-1])
-    if shift is not None:
-        position = position + rotation @ shift
-    if turn is not None:
-        rotation = rotation @ exp_so3(turn)
+    if change.shift is not None:
+        position = position + rotation @ change.shift
+    if change.turn is not None:
+        rotation = rotation @ exp_so3(change.turn)
     origin.set("xyz", _said(position))
     origin.set("rpy", _said(angles.from_rotation(rotation)[::-1]))
     return True
@@ -133,13 +113,11 @@ def _joint_element(root: ET.Element, robot: RobotModel, index: int) -> ET.Elemen
     return None
 
 
-def _payload(root: ET.Element, robot: RobotModel, effect: ModelEffect) -> bool:
+def _body(root: ET.Element, robot: RobotModel, change: Body) -> bool:
     """A point mass added to the flange's link, or to the one it is said to be on, by the parallel-axis theorem."""
-    p = effect.parameters
-    mass, at = p["mass"], np.array([p.get(f"com_{c}", 0.0) for c in "xyz"])
-    name = robot.flange
-    if "link" in effect.where:
-        joint = _joint_element(root, robot, int(effect.where["link"]) - 1)
+    mass, at, name = change.mass, change.centre, robot.flange
+    if change.link is not None:
+        joint = _joint_element(root, robot, change.link - 1)
         child = None if joint is None else joint.find("child")
         name = "" if child is None else child.get("link", "")
     link = next((e for e in root.findall("link") if e.get("name") == name), None)
@@ -164,31 +142,14 @@ def _payload(root: ET.Element, robot: RobotModel, effect: ModelEffect) -> bool:
     return True
 
 
-def _dynamics(key: str) -> Callable[[ET.Element, RobotModel, ModelEffect], bool]:
-    def write(root: ET.Element, robot: RobotModel, effect: ModelEffect) -> bool:
-        joint = _joint_element(root, robot, int(effect.where["joint"]) - 1)
-        if joint is None:
-            return False
-        element = _child(joint, "dynamics")
-        element.set(key, f"{float(element.get(key, '0')) + _only(effect):.12g}")
-        return True
-
-    return write
-
-
-_WRITERS: dict[str, Callable[[ET.Element, RobotModel, ModelEffect], bool]] = {
-    "joint_zero": _joint_zero,
-    "link_length": _link_length,
-    "link_twist": _link_twist,
-    "payload": _payload,
-    "viscous_friction": _dynamics("damping"),
-    "coulomb_friction": _dynamics("friction"),
-}
-
-
-def _only(effect: ModelEffect) -> float:
-    """The effect's one value, SI."""
-    return float(next(iter(effect.parameters.values())))
+def _dynamics(root: ET.Element, robot: RobotModel, change: InJoint) -> bool:
+    joint = _joint_element(root, robot, change.joint - 1)
+    if joint is None:
+        return False
+    element = _child(joint, "dynamics")
+    for key, more in change.more.items():
+        element.set(key, f"{float(element.get(key, '0')) + more:.12g}")
+    return True
 
 
 def _child(parent: ET.Element, name: str) -> ET.Element:

@@ -13,6 +13,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
+from app.diagnosis import effects
 from app.diagnosis.model import ModelEffect, SavedModel
 from app.errors import CellValueError, InputError, UnknownNameError
 from app.kinematics import RobotModel
@@ -28,21 +29,6 @@ LONGEST_TEXT = 300
 #: Keys of `where` that hold a number from 1; the others hold a time or a word.
 _COUNTED = ("joint", "link", "source_joint", "from_row", "order")
 _TIMES = ("from_s", "to_s")
-#: What each effect's place has to name; effects that may stand alone are not listed.
-_NEEDED = {
-    **dict.fromkeys(
-        (
-            "joint_zero", "joint_compliance", "backlash", "gear_eccentricity", "gear_ratio", "joint_coupling",
-            "joint_slip", "viscous_friction", "coulomb_friction", "stribeck_friction", "friction_asymmetry",
-            "quadratic_friction", "load_friction", "warmup_friction", "rotor_inertia", "torque_ripple",
-            "joint_spring",
-        ),
-        ("joint",),
-    ),
-    "link_length": ("link",),
-    "link_twist": ("link",),
-    "link_inertia": ("link",),
-}  # fmt: skip
 
 
 def checked(model: SavedModel, file: str | Path | None = None) -> SavedModel:
@@ -130,7 +116,8 @@ def applying(model: SavedModel | None, file: str | Path | None = None) -> Iterat
 def _check_effect(effect: ModelEffect, kind: str, what: str, file: str | Path | None) -> None:
     if not effect.effect or len(effect.effect) > LONGEST_TEXT:
         raise InputError("an effect without a name", file=file, column=what[:80], expected="a name")
-    for key in _NEEDED.get(effect.effect, ()):
+    law = effects.named(effect.effect, kind)
+    for key in () if law is None else law.located_by:
         if key not in effect.where:
             raise InputError("this key is missing", file=file, column=f"{what}, where", expected=key)
     for key, value in effect.where.items():
@@ -149,10 +136,11 @@ def _check_effect(effect: ModelEffect, kind: str, what: str, file: str | Path | 
                 column=f"{what}, parameter {name[:40]}",
                 expected=f"a finite number of at most {LARGEST:g}",
             )
-    # in a log a load below nothing is a hand that the description has and the arm has not
-    if kind == "static" and effect.effect == "payload" and effect.parameters.get("mass", 0.0) < 0.0:
+    impossible = None if law is None else law.impossible(effect.parameters)
+    if impossible is not None:
+        name, expected = impossible
         raise CellValueError(
-            f"found {effect.parameters['mass']!r}", file=file, column=f"{what}, mass", expected="0 kg or more"
+            f"found {effect.parameters[name]!r}", file=file, column=f"{what}, {name}", expected=expected
         )
 
 

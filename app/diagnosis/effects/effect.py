@@ -6,15 +6,17 @@ An effect's file is all it needs. The engine never asks for a key; it asks for c
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import IntEnum
-from typing import Any, Generic, TypeVar
+from typing import Any, ClassVar, Generic, TypeVar
 
 import numpy as np
 
+from app.diagnosis.effects.described import Change
 from app.diagnosis.result import Parameter
 from app.diagnosis.thresholds.evidence import LAW
+from app.kinematics import RobotModel
 from app.units import deg, mm
 
 #: Unit at the edge -> factor from SI. Units that are SI themselves are not listed.
@@ -105,6 +107,7 @@ class Effect(ABC, Generic[Situation, Columns, Cell]):
         undone: True where it is taken out of the recording before anything is fitted (a convention, a delay).
         lasting: False for events of one recording, which a model does not carry to another.
         moves_base: True where it puts the whole base elsewhere, however far.
+        located_by: keys of `where` that its place has to name; empty where it may stand for the whole arm.
     """
 
     key: str
@@ -121,6 +124,7 @@ class Effect(ABC, Generic[Situation, Columns, Cell]):
     undone: bool = False
     lasting: bool = True
     moves_base: bool = False
+    located_by: ClassVar[Sequence[str]] = ()
 
     @abstractmethod
     def places(self, situation: Situation) -> Iterable[Place]:
@@ -145,6 +149,16 @@ class Effect(ABC, Generic[Situation, Columns, Cell]):
     @abstractmethod
     def sentence(self, place: Place, parameters: tuple[Parameter, ...]) -> str:
         """What an operator reads."""
+
+    def described(
+        self, robot: RobotModel, where: Mapping[str, Any], parameters: Mapping[str, float]
+    ) -> tuple[Change, ...]:
+        """What a description of rigid bodies has words for of the effect as it was saved; () where it has none."""
+        return ()
+
+    def impossible(self, parameters: Mapping[str, float]) -> tuple[str, str] | None:
+        """The first saved value that no arm has, by name, and what it could be; None where all may be."""
+        return None
 
     def widths(self, situation: Situation, place: Place) -> np.ndarray:
         """(d,) nominal one-sigma sizes, SI."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -10,46 +9,36 @@ from typing import Any
 
 import numpy as np
 
-from app.diagnosis.corrected import GEOMETRIC, save_corrected_urdf
-from app.diagnosis.effects.dynamic._friction import WIDTH
+from app.diagnosis import effects
+from app.diagnosis.corrected import save_corrected_urdf
+from app.diagnosis.effects.described import Body, Change, Gain, Gravity, InJoint, Late, Masses, Placed
 from app.diagnosis.export.arm import Left, SimArm, SimJoint
 from app.diagnosis.export.physical import physical
 from app.diagnosis.model import ModelEffect, SavedModel
 from app.kinematics import RobotModel, load_robot
 from app.kinematics.description.address import address_of
-from app.kinematics.dynamics import PER_LINK, flange_to_last_link, inertial_parameters, point_mass
+from app.kinematics.dynamics import PER_LINK, flange_to_last_link, inertial_parameters
 from app.kinematics.robot import GRAVITY
 
 #: Speed over the width at which tanh lacks a hundredth.
 _HUNDREDTH = 2.65
-_INERTIAL = ("mass", "mx", "my", "mz", "ixx", "ixy", "iyy", "ixz", "iyz", "izz")
-#: Law of a joint -> field of SimJoint and the parameter that is added to it.
-_OF_JOINT = {
-    "viscous_friction": (("damping", "viscous"),),
-    "quadratic_friction": (("damping2", "quadratic"),),
-    "coulomb_friction": (("friction", "coulomb"),),
-    "rotor_inertia": (("armature", "inertia"),),
-    "joint_spring": (("stiffness", "stiffness"), ("offset", "offset")),
-    "friction_asymmetry": (("offset", "offset"),),
-}
 
 
 def carried(robot: RobotModel, model: SavedModel) -> SimArm:
     """The arm with everything in it that a rigid-body simulator has a place for."""
-    geometry = [e for e in model.effects if e.effect in GEOMETRIC]
-    built, lost = _with_geometry(robot, model, geometry)
+    said = [(effect, _said(robot, model.kind, effect)) for effect in model.effects]
+    built, lost = _with_geometry(robot, model, [effect for effect, changes in said if _moves(changes)])
     arm = _bare(built, model)
     left = list(lost)
-    for effect in model.effects:
-        if effect.effect in GEOMETRIC:
+    for effect, changes in said:
+        if _moves(changes):
             continue
-        put = _PUT.get(effect.effect, _put_joint if effect.effect in _OF_JOINT else None)
-        after = put(arm, effect) if put is not None and not _passing(effect) else None
+        after = _put(arm, changes) if changes and not _passing(effect) else None
         if after is None:
             left.append(left_of(effect))
         else:
             arm = after
-            left += _turn(effect)
+            left += _turn(changes)
     arm = _all_physical(arm, left)
     return replace(arm, left=tuple(left))
 
@@ -61,14 +50,26 @@ def left_of(effect: ModelEffect, why: str = "") -> Left:
     return Left(f"{effect.effect} ({place})" if place else effect.effect, size, why)
 
 
-def _turn(effect: ModelEffect) -> list[Left]:
+def _said(robot: RobotModel, kind: str, effect: ModelEffect) -> tuple[Change, ...]:
+    """An effect in the words of a description; () where there are none for it."""
+    law = effects.named(effect.effect, kind)
+    return () if law is None else law.described(robot, effect.where, effect.parameters)
+
+
+def _moves(changes: tuple[Change, ...]) -> bool:
+    return any(isinstance(change, Placed) for change in changes)
+
+
+def _turn(changes: tuple[Change, ...]) -> list[Left]:
     """Over which speed dry friction changes its sign: simulators change it at once, or over a speed of their own."""
-    width, most = effect.parameters.get(WIDTH, 0.0), effect.parameters.get("coulomb", 0.0)
-    if effect.effect != "coulomb_friction" or not width:
-        return []
-    what = f"the turn of dry friction (joint {effect.where.get('joint')})"
-    why = f"there it has its full size at once: up to {abs(most):.3g} more, 1% of that at {_HUNDREDTH * width:.3g}"
-    return [Left(what, f"over a speed of {width:.3g}", why)]
+    out = []
+    for change in changes:
+        if isinstance(change, InJoint) and "friction" in change.more and change.turns_over:
+            width, most = change.turns_over, abs(change.more["friction"])
+            why = f"there it has its full size at once: up to {most:.3g} more, 1% of that at {_HUNDREDTH * width:.3g}"
+            what = f"the turn of dry friction (joint {change.joint})"
+            out.append(Left(what, f"over a speed of {width:.3g}", why))
+    return out
 
 
 def _passing(effect: ModelEffect) -> bool:
@@ -127,71 +128,43 @@ def _bare(robot: RobotModel, model: SavedModel) -> SimArm:
     return SimArm(robot, joints, flange, np.zeros(PER_LINK), GRAVITY.copy(), 0.0, (), model.source)
 
 
-def _put_joint(arm: SimArm, effect: ModelEffect) -> SimArm | None:
-    k, changes = int(effect.where["joint"]) - 1, {}
-    for field, parameter in _OF_JOINT[effect.effect]:
-        changes[field] = getattr(arm.joints[k], field) + effect.parameters.get(parameter, 0.0)
-    if (
-        changes.get("friction", 0.0) < 0.0
-    ):  # what a fit may find where a model is not complete, no simulator takes
-        return None
-    return _joint(arm, k, changes)
+def _put(arm: SimArm, changes: tuple[Change, ...]) -> SimArm | None:
+    """The arm with the changes in it; None where one of them is none that a simulator takes."""
+    now: SimArm | None = arm
+    for change in changes:
+        now = now and _with(now, change)
+    return now
+
+
+def _with(arm: SimArm, change: Change) -> SimArm | None:
+    match change:
+        case InJoint(joint, more):
+            own = arm.joints[joint - 1]
+            changed = {word: getattr(own, word) + value for word, value in more.items()}
+            if changed.get("friction", 0.0) < 0.0:  # what a fit may find where a model is not complete
+                return None
+            return _joint(arm, joint - 1, changed)
+        case Masses(link, more):
+            return _joint(arm, link - 1, {"inertial": arm.joints[link - 1].inertial + more})
+        case Body(link=None):
+            return replace(arm, payload=arm.payload + change.inertial)
+        case Body(link=int(link)):
+            return _joint(arm, link - 1, {"inertial": arm.joints[link - 1].inertial + change.inertial})
+        case Gravity(vector):
+            return replace(arm, gravity=vector)
+        case Late(seconds):
+            return replace(arm, delay=arm.delay + seconds)
+        case Gain(factor, joint):
+            for k in range(len(arm.joints)) if joint is None else [joint - 1]:
+                arm = _joint(arm, k, {"gain": arm.joints[k].gain * factor})
+            return arm
+    return None
 
 
 def _joint(arm: SimArm, k: int, changes: dict[str, Any]) -> SimArm:
     joints = list(arm.joints)
     joints[k] = replace(joints[k], **changes)
     return replace(arm, joints=tuple(joints))
-
-
-def _put_link(arm: SimArm, effect: ModelEffect) -> SimArm | None:
-    k = int(effect.where["link"]) - 1
-    change = np.array([effect.parameters.get(name, 0.0) for name in _INERTIAL])
-    return _joint(arm, k, {"inertial": arm.joints[k].inertial + change})
-
-
-def _put_payload(arm: SimArm, effect: ModelEffect) -> SimArm | None:
-    p = effect.parameters
-    if not {"mass", "com_x", "com_y", "com_z"} <= set(p):
-        return None
-    body = point_mass(p["mass"], np.array([p["com_x"], p["com_y"], p["com_z"]]))
-    body[4:] += [p.get(f"fixed_{name}", 0.0) for name in _INERTIAL[4:]]  # about its centre, fitted along
-    if "link" in effect.where:
-        k = int(effect.where["link"]) - 1
-        return _joint(arm, k, {"inertial": arm.joints[k].inertial + body})
-    return replace(arm, payload=arm.payload + body)
-
-
-def _put_gravity(arm: SimArm, effect: ModelEffect) -> SimArm | None:
-    try:
-        return replace(arm, gravity=np.array([effect.parameters[k] for k in ("gx", "gy", "gz")]))
-    except KeyError:
-        return None
-
-
-def _put_delay(arm: SimArm, effect: ModelEffect) -> SimArm | None:
-    if "joint" in effect.where or "delay" not in effect.parameters:
-        return None
-    return replace(arm, delay=arm.delay + effect.parameters["delay"])
-
-
-def _put_gain(arm: SimArm, effect: ModelEffect) -> SimArm | None:
-    scale = effect.parameters.get("scale")
-    if scale is None or scale <= -1.0:
-        return None
-    chosen = [int(effect.where["joint"]) - 1] if "joint" in effect.where else range(len(arm.joints))
-    for k in chosen:
-        arm = _joint(arm, k, {"gain": arm.joints[k].gain * (1.0 + scale)})
-    return arm
-
-
-_PUT: dict[str, Callable[[SimArm, ModelEffect], SimArm | None]] = {
-    "link_inertia": _put_link,
-    "payload": _put_payload,
-    "gravity_direction": _put_gravity,
-    "delay": _put_delay,
-    "torque_constant": _put_gain,
-}
 
 
 def _all_physical(arm: SimArm, left: list[Left]) -> SimArm:

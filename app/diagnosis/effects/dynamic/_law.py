@@ -8,10 +8,13 @@ from typing import Any, ClassVar
 
 import numpy as np
 
+from app.diagnosis.effects.described import Change, InJoint
+from app.diagnosis.effects.dynamic._friction import WIDTH
 from app.diagnosis.effects.effect import Effect, Place, Quantity
 from app.diagnosis.models.dynamic.hypothesis import Hypothesis
 from app.diagnosis.models.dynamic.state import State
 from app.diagnosis.result import Parameter
+from app.kinematics import RobotModel
 
 Where = Mapping[str, Any]
 Values = Mapping[str, float]
@@ -48,6 +51,7 @@ class Law(Effect[State, State, np.ndarray]):
         gain: True where it scales what is recorded of a torque.
         added: key of the law that a change of the same columns is where it is a body fixed to the link.
         servo_alike: keys of laws on the same joint that look the same where a servo's error stands for its torque.
+        in_joint: saved parameter -> the word a description of joints has for it, see `InJoint`.
         within: key of a simpler law on the same joint that must be in before this one is asked.
     """
 
@@ -71,6 +75,7 @@ class Law(Effect[State, State, np.ndarray]):
     gain = False
     added = ""
     servo_alike: ClassVar[Sequence[str]] = ()
+    in_joint: ClassVar[Mapping[str, str]] = {}
     within = ""
 
     @abstractmethod
@@ -100,6 +105,14 @@ class Law(Effect[State, State, np.ndarray]):
         """Columns and their nominal widths."""
         found = self.columns(state, place)
         return found, self.widths(state, place, found)
+
+    def described(
+        self, robot: RobotModel, where: Mapping[str, Any], parameters: Mapping[str, float]
+    ) -> tuple[Change, ...]:
+        if not self.in_joint:
+            return ()
+        more = {word: parameters.get(name, 0.0) for name, word in self.in_joint.items()}
+        return (InJoint(int(where["joint"]), more, parameters.get(WIDTH, 0.0)),)
 
     def saved(self, place: Place, values: np.ndarray) -> dict[str, float]:
         """Linear parameters (d,) and fixed values -> what is saved and reported."""
@@ -148,6 +161,8 @@ class Law(Effect[State, State, np.ndarray]):
 
 class JointLaw(Law):
     """A law on one joint, the same at every joint that moves."""
+
+    located_by = ("joint",)
 
     def forms(self, state: State, joint: int) -> list[tuple[Values, float]]:
         """Values that choose the form on joint (from 0), with the nats each choice costs."""

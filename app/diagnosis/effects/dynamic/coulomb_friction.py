@@ -20,6 +20,7 @@ class CoulombFriction(JointLaw):
     units: ClassVar = {"coulomb": "Nm"}
     blunt = True
     linear = ("coulomb",)
+    in_joint: ClassVar = {"coulomb": "friction"}
     positive = ("coulomb",)
     whole = True
 

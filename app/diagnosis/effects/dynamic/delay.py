@@ -8,11 +8,13 @@ from typing import ClassVar
 
 import numpy as np
 
+from app.diagnosis.effects.described import Late
 from app.diagnosis.effects.dynamic._law import Law, Torques, Values, Where, everywhere
 from app.diagnosis.effects.effect import Place
 from app.diagnosis.models.dynamic.hypothesis import Hypothesis
 from app.diagnosis.models.dynamic.state import State
 from app.diagnosis.result import Parameter
+from app.kinematics import RobotModel
 
 NOMINAL = 0.01  # s
 
@@ -48,6 +50,9 @@ class Delay(Law):
             return {}
         late = state.t - parameters["delay"]
         return {j: np.interp(late, state.t, c) - c for j, c in enumerate(state.torque.T)}
+
+    def described(self, robot: RobotModel, where: Where, parameters: Values) -> tuple[Late, ...]:
+        return () if "joint" in where or "delay" not in parameters else (Late(parameters["delay"]),)
 
     def sentence(self, place: Place, parameters: tuple[Parameter, ...]) -> str:
         late = "late" if parameters[0].value > 0 else "early"

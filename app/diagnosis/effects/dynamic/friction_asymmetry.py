@@ -20,6 +20,7 @@ class FrictionAsymmetry(JointLaw):
     equation = "tau = offset (half the difference of the two levels)"
     units: ClassVar = {"offset": "Nm"}
     linear = ("offset",)
+    in_joint: ClassVar = {"offset": "offset"}
     whole = True
 
     def places(self, situation: State) -> Iterable[Place]:

@@ -8,14 +8,17 @@ from typing import ClassVar
 
 import numpy as np
 
+from app.diagnosis.effects.described import Gravity
 from app.diagnosis.effects.dynamic._law import Law, Torques, Values, Where, everywhere
 from app.diagnosis.effects.effect import Place
 from app.diagnosis.models.dynamic.hypothesis import Hypothesis
 from app.diagnosis.models.dynamic.state import State
 from app.diagnosis.result import Parameter
+from app.kinematics import RobotModel
 from app.kinematics.robot import GRAVITY
 
 TILT = 1.0  # m/s^2: nominal size of the part across, 6 degrees
+_NAMES = ("gx", "gy", "gz")
 _FIXED = ("fixed_gx", "fixed_gy", "fixed_gz")
 
 
@@ -46,11 +49,10 @@ class GravityDirection(Law):
 
     def saved(self, place: Place, values: np.ndarray) -> dict[str, float]:
         g = _leaning(place.fixed, values)
-        return {"gx": float(g[0]), "gy": float(g[1]), "gz": float(g[2])}
+        return dict(zip(_NAMES, map(float, g), strict=True))
 
     def torque(self, state: State, where: Where, parameters: Values) -> Torques:
-        change = np.array([parameters[k] for k in ("gx", "gy", "gz")]) - GRAVITY
-        return everywhere(state.gravity_columns @ change)
+        return everywhere(state.gravity_columns @ (_vector(parameters) - GRAVITY))
 
     def undo(self, hypothesis: Hypothesis, place: Place, values: np.ndarray) -> Hypothesis:
         return replace(hypothesis, gravity=_leaning(place.fixed, values))
@@ -63,12 +65,20 @@ class GravityDirection(Law):
             for (name, value), s in zip(self.saved(place, values).items(), std, strict=True)
         )
 
+    def described(self, robot: RobotModel, where: Where, parameters: Values) -> tuple[Gravity, ...]:
+        return (Gravity(_vector(parameters)),) if parameters.keys() >= set(_NAMES) else ()
+
     def sentence(self, place: Place, parameters: tuple[Parameter, ...]) -> str:
         g = np.array([p.value for p in parameters[:3]])
         tilt = np.arccos(np.clip(g @ GRAVITY / np.linalg.norm(g) / np.linalg.norm(GRAVITY), -1, 1))
         return (
             f"The base leans by {tilt:.4g} rad: gravity is ({g[0]:.3f}, {g[1]:.3f}, {g[2]:.3f}) m/s^2 in it."
         )
+
+
+def _vector(parameters: Values) -> np.ndarray:
+    """(3,) gravity as saved."""
+    return np.array([parameters[k] for k in _NAMES])
 
 
 def _across(fixed: Mapping[str, float]) -> np.ndarray:

@@ -25,6 +25,7 @@ class JointCoupling(Law):
     key = "joint_coupling"
     title = "another joint loads it"
     family = "couplings"
+    located_by = ("joint",)
     equation = "tau_joint = coupling * x_source, x = qd, qdd, q or sign(qd)"
     units: ClassVar = {"coupling": "", "dry": "Nm", "viscous": "Nm s/rad", "inertia": "kg m^2"}
     linear = ("coupling",)

@@ -18,6 +18,7 @@ class JointSpring(JointLaw):
     equation = "tau = stiffness * q + offset"
     units: ClassVar = {"stiffness": "Nm/rad", "offset": "Nm"}
     linear = ("stiffness", "offset")
+    in_joint: ClassVar = {"stiffness": "stiffness", "offset": "offset"}
     carried = True
     contains = "friction_asymmetry"
 

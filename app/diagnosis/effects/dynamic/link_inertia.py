@@ -7,10 +7,12 @@ from typing import ClassVar
 
 import numpy as np
 
-from app.diagnosis.effects.dynamic._law import Law, Torques
+from app.diagnosis.effects.described import INERTIAL, Masses
+from app.diagnosis.effects.dynamic._law import Law, Torques, Values, Where
 from app.diagnosis.effects.effect import Place
 from app.diagnosis.models.dynamic.state import State
 from app.diagnosis.result import Parameter
+from app.kinematics import RobotModel
 from app.kinematics.dynamics import PER_LINK
 
 TRUST = 0.2  # nominal size: a link's mass in descriptions drawn from CAD, relative
@@ -20,12 +22,13 @@ class LinkInertia(Law):
     key = "link_inertia"
     title = "the link's masses differ"
     family = "inertials"
+    located_by = ("link",)
     equation = "tau = Y_link(q, qd, qdd) * (change of mass, first moment and inertia)"
     units: ClassVar = {
         "mass": "kg", "mx": "kg m", "my": "kg m", "mz": "kg m",
         **{f"i{a}": "kg m^2" for a in ("xx", "xy", "yy", "xz", "yz", "zz")},
     }  # fmt: skip
-    linear = ("mass", "mx", "my", "mz", "ixx", "ixy", "iyy", "ixz", "iyz", "izz")
+    linear = INERTIAL
     carried = True
     added = "payload"
     whole = True
@@ -44,6 +47,9 @@ class LinkInertia(Law):
         k = int(place.where["link"]) - 1
         mass, size = situation.link_mass[k], situation.link_size[k]
         return TRUST * mass * np.array([1.0, *[size] * 3, *[size**2] * 6])
+
+    def described(self, robot: RobotModel, where: Where, parameters: Values) -> tuple[Masses, ...]:
+        return (Masses(int(where["link"]), np.array([parameters.get(name, 0.0) for name in INERTIAL])),)
 
     def sentence(self, place: Place, parameters: tuple[Parameter, ...]) -> str:
         values = {p.name: p.value for p in parameters}

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
+from app.diagnosis.effects.described import Body, body
 from app.diagnosis.effects.dynamic._law import Values, Where
 from app.diagnosis.effects.dynamic._load import SMALLEST, Load
 from app.diagnosis.effects.effect import Place
 from app.diagnosis.models.dynamic.state import State
 from app.diagnosis.result import Parameter
+from app.kinematics import RobotModel
 
 FARTHEST = 1.0  # m from the flange: farther out is no load's centre
 
@@ -29,6 +31,9 @@ class Payload(Load):
     def lawful(self, parameters: Values) -> bool:
         far = max(abs(parameters[f"com_{c}"]) for c in "xyz")
         return abs(parameters["mass"]) > SMALLEST and far < FARTHEST
+
+    def described(self, robot: RobotModel, where: Where, parameters: Values) -> tuple[Body, ...]:
+        return body(where, parameters)
 
     def sentence(self, place: Place, parameters: tuple[Parameter, ...]) -> str:
         values = {p.name: p.value for p in parameters}

@@ -18,6 +18,7 @@ class QuadraticFriction(JointLaw):
     equation = "tau = quadratic * qd * |qd|"
     units: ClassVar = {"quadratic": "Nm s^2/rad^2"}
     linear = ("quadratic",)
+    in_joint: ClassVar = {"quadratic": "damping2"}
     positive = ("quadratic",)
 
     def column(self, state: State, joint: int, fixed: Values) -> np.ndarray:

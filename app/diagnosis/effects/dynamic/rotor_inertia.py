@@ -18,6 +18,7 @@ class RotorInertia(JointLaw):
     equation = "tau = inertia * qdd"
     units: ClassVar = {"inertia": "kg m^2"}
     linear = ("inertia",)
+    in_joint: ClassVar = {"inertia": "armature"}
     positive = ("inertia",)
     whole = True
 

@@ -8,12 +8,14 @@ from typing import ClassVar
 
 import numpy as np
 
+from app.diagnosis.effects.described import Gain
 from app.diagnosis.effects.dynamic._law import JointLaw, Torques, Values, Where
 from app.diagnosis.effects.effect import Place
 from app.diagnosis.models.dynamic.hypothesis import Hypothesis
 from app.diagnosis.models.dynamic.state import State
 from app.diagnosis.result import Parameter
 from app.diagnosis.thresholds.evidence import GAIN_SPREAD
+from app.kinematics import RobotModel
 
 NOMINAL = 0.3  # drive gains of a maker differ by some percent; one that was taken for another by tens
 SMALLEST, LARGEST = (
@@ -31,6 +33,7 @@ class TorqueConstant(JointLaw):
     title = "its torque is recorded by a wrong factor"
     family = "drive"
     driver = ""
+    located_by = ()
     equation = "tau_recorded = (1 + scale) * tau"
     units: ClassVar = {"scale": ""}
     linear = ("scale",)
@@ -84,6 +87,11 @@ class TorqueConstant(JointLaw):
 
     def lawful(self, parameters: Values) -> bool:
         return SMALLEST < 1.0 + parameters["scale"] < LARGEST
+
+    def described(self, robot: RobotModel, where: Where, parameters: Values) -> tuple[Gain, ...]:
+        factor = 1.0 + parameters.get("scale", -1.0)
+        joint = int(where["joint"]) if "joint" in where else None
+        return (Gain(factor, joint),) if factor > 0.0 else ()
 
     def sentence(self, place: Place, parameters: tuple[Parameter, ...]) -> str:
         factor, std = 1.0 + parameters[0].value, parameters[0].std

@@ -18,6 +18,7 @@ class ViscousFriction(JointLaw):
     equation = "tau = viscous * qd"
     units: ClassVar = {"viscous": "Nm s/rad"}
     linear = ("viscous",)
+    in_joint: ClassVar = {"viscous": "damping"}
     servo_alike = ("delay",)  # a command followed late by d leaves stiffness times d times the speed
     positive = ("viscous",)
     whole = True

@@ -32,6 +32,7 @@ class Backlash(KinematicEffect):
     title = "Play in a joint"
     equation = "q_true = q - gap/2 * sign(last move), or sign(torque)"
     family = "play"
+    located_by = ("joint",)
     level = Level.MECHANISM
     cap = 30.0
     whole = True

@@ -30,6 +30,7 @@ class GearEccentricity(KinematicEffect):
     title = "A gear or encoder runs out of centre"
     equation = "q_true = q + sin * sin(order q) + cos * cos(order q)"
     family = "gears"
+    located_by = ("joint",)
     level = Level.MECHANISM
     cap = 20.0
     whole = True

@@ -24,6 +24,7 @@ class GearRatio(KinematicEffect):
     title = "Wrong gear ratio"
     equation = "q_true = q * (1 + ratio_error)"
     family = "gears"
+    located_by = ("joint",)
     level = Level.MECHANISM
     cap = 20.0
     whole = True

@@ -30,6 +30,7 @@ class JointCompliance(KinematicEffect):
     title = "Joint gives way under gravity"
     equation = "q_true = q - compliance * torque"
     family = "elasticity"
+    located_by = ("joint",)
     group = "give"
     cap = 50.0
     whole = True

@@ -30,6 +30,7 @@ class JointCoupling(KinematicEffect):
     title = "One joint moves another"
     equation = "q_true = q + coupling * q_source"
     family = "couplings"
+    located_by = ("joint",)
     level = Level.MECHANISM
     cap = 20.0
     whole = True

@@ -25,6 +25,7 @@ class JointSlip(KinematicEffect):
     title = "A joint's zero jumped"
     equation = "q_true = q + step from row k on"
     family = "events"
+    located_by = ("joint",)
     cap = 100.0
     lasting = False
 

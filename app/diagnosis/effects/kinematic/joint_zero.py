@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from app.diagnosis.effects.described import Placed, only
 from app.diagnosis.effects.kinematic._base import (
     KinematicEffect,
     Place,
@@ -28,6 +29,7 @@ class JointZero(KinematicEffect):
     title = "Joint zero is off"
     equation = "q_true = q + offset"
     family = "zeros"
+    located_by = ("joint",)
     cap = 30.0
     whole = True
     always = True
@@ -43,6 +45,11 @@ class JointZero(KinematicEffect):
 
     def columns(self, columns, place):
         return columns.joint[:, :, place.where["joint"] - 1, None]
+
+    def described(self, robot, where, parameters):
+        k = int(where["joint"])
+        axis = robot.chain.axes[k - 1] * only(parameters)
+        return (Placed(k, shift=axis) if robot.joints[k - 1].prismatic else Placed(k, turn=axis),)
 
     def sentence(self, place, parameters):
         return f"The zero of {joint_name(place)} is off by {number(parameters[0])}."

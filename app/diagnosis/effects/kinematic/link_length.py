@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from app.diagnosis.effects.described import Placed, only
 from app.diagnosis.effects.kinematic._base import KinematicEffect, Place, Quantity, joints, number
-from app.diagnosis.models.kinematic.geometry import AXES
+from app.diagnosis.models.kinematic.geometry import AXES, link_axes
 
 #: m: castings and assembly of industrial arms.
 _WIDTH = 3e-4
@@ -23,6 +24,7 @@ class LinkLength(KinematicEffect):
     title = "A link is longer or shorter"
     equation = "T_link_next = T_nominal shifted by offset along a (common normal) or d (joint axis)"
     family = "geometry"
+    located_by = ("link",)
     cap = 20.0
     whole = True
     always = True
@@ -46,6 +48,13 @@ class LinkLength(KinematicEffect):
 
     def columns(self, columns, place):
         return columns.link[:, :, place.where["link"] - 1, AXES.index(place.where["axis"]), None]
+
+    def described(self, robot, where, parameters):
+        if where.get("axis") not in AXES:
+            return ()
+        k = int(where["link"])
+        vector = link_axes(robot.chain).vectors[k - 1, AXES.index(where["axis"])]
+        return (Placed(k + 1, shift=vector * only(parameters)),)
 
     def sentence(self, place, parameters):
         return f"{place.where['axis']} of link {place.where['link']} is off by {number(parameters[0])}."

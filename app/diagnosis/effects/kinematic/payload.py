@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from app.diagnosis.effects.described import body
 from app.diagnosis.effects.kinematic._base import KinematicEffect, Place, Quantity
 from app.diagnosis.result import Parameter
 
@@ -65,6 +66,17 @@ class Payload(KinematicEffect):
                 )
             )
         return tuple(out)
+
+    def described(self, robot, where, parameters):
+        mass = parameters.get("mass", 0.0)
+        if abs(mass) > _NEGLIGIBLE:
+            centre = {f"com_{c}": parameters.get(f"moment_{c}", 0.0) / mass for c in "xyz"}
+            parameters = {**centre, **parameters}
+        return body(where, parameters)
+
+    def impossible(self, parameters):
+        # in a log a load below nothing is a hand that the description has and the arm has not
+        return ("mass", "0 kg or more") if parameters.get("mass", 0.0) < 0.0 else None
 
     def sentence(self, place, parameters):
         return (
