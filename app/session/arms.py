@@ -86,7 +86,7 @@ def unpacked_arm(arm: Packed, folder: Path) -> str:
 
 
 class _Unpacked:
-    """The folder of unpacked arms; it is there as long as somebody holds it, and a model that was read from it does: its
+    """The folder of unpacked arms; it is there as long as somebody holds it. A model that was read from it does: its
     meshes are opened when it is first drawn."""
 
     def __init__(self) -> None:

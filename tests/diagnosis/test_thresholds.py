@@ -75,7 +75,8 @@ STAY = {
     },
     "names and units of conventions": {
         "observations/conventions.py": {
-            "ANGLE_UNIT", "HORIZON", "INVERSE", "LENGTH_UNIT", "QUARTER", "SIGN", "SWAP", "_LENGTH_FACTORS",
+            "ANGLE_UNIT", "HORIZON", "INVERSE", "LATE", "LENGTH_UNIT", "MIRROR", "QUARTER", "SIGN", "SWAP",
+            "_LENGTH_FACTORS", "_MIRROR", "_ROWS_APART",
         },
     },
     "bounds of a file that is read": {

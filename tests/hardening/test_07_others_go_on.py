@@ -35,8 +35,8 @@ def server(tmp_path):
 
 @pytest.fixture
 def turns(monkeypatch):
-    """(seconds of the processor, what was called) of every turn of a loop on the server's thread; what tests before this
-    one left is not looked through for garbage in it."""
+    """(seconds of the processor, what was called) of every turn of a loop on the server's thread; what earlier tests
+    left is not looked through for garbage in it."""
     gc.collect()
     gc.freeze()
     seen, run = [], asyncio.events.Handle._run

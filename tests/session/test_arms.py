@@ -112,6 +112,8 @@ def test_a_model_is_drawn_after_the_store_it_came_from_is_gone(tmp_path, arm):
     arms = Arms(Store(tmp_path / "data").database)
     model = arms.model(arms.keep("tom", arm))
     del arms
-    Arms(Store(tmp_path / "other").database).keep("tom", arm)  # of another store of this process: sessions use this one
+    Arms(Store(tmp_path / "other").database).keep(
+        "tom", arm
+    )  # of another store of this process: sessions use this one
     gc.collect()
     assert missing_meshes(model) == () and "mesh" in {shape.kind for shape in robot_shapes(model)}

@@ -48,11 +48,12 @@ def rewritten(recording: StaticRecording, robot: RobotModel) -> Written:
     """Undoes wrong conventions, one at a time, as long as one earns its place against an arm off everywhere."""
     found: list[tuple[Convention, tuple[Convention, ...]]] = []
     for _ in range(CONVENTIONS):
-        sample = _thinned(recording)
+        keep = _thinned(recording)
+        sample = _some(recording, keep)
         plain = _plain(sample)
         if plain is None or plain.misfit < CONVENTION_MISFIT:
             break
-        chosen = _best(sample, plain, robot)
+        chosen = _best(recording, keep, plain, robot)
         if chosen is None:
             break
         found.append(chosen)
@@ -61,13 +62,15 @@ def rewritten(recording: StaticRecording, robot: RobotModel) -> Written:
 
 
 def _best(
-    sample: StaticRecording, plain: State, robot: RobotModel
+    recording: StaticRecording, keep: np.ndarray, plain: State, robot: RobotModel
 ) -> tuple[Convention, tuple[Convention, ...]] | None:
     """The convention with the highest evidence, and those that explain the same; None where none earns its place."""
+    sample = plain.recording
     tried: list[tuple[float, Convention]] = []
     as_written = _likelihood(plain, sample)
     for convention in conventions(sample):
-        state = _plain(convention.placed(sample))
+        apart = convention.needs_neighbours
+        state = _plain(_some(convention.placed(recording), keep) if apart else convention.placed(sample))
         if state is not None:
             gain = _likelihood(state, sample) - as_written
             if gain > CONVENTION:
@@ -76,7 +79,9 @@ def _best(
     if not tried:
         return None
     as_is = _evidence(plain, sample)
-    short = [(convention, _plain_of(convention, sample, robot)) for _, convention in tried[:_SHORT_LIST]]
+    short = [
+        (convention, _plain_of(convention, recording, keep, robot)) for _, convention in tried[:_SHORT_LIST]
+    ]
     scored = [
         (_evidence(state, sample) - as_is, convention) for convention, state in short if state is not None
     ]
@@ -90,9 +95,13 @@ def _best(
     return alike[0], tuple(alike[1:])
 
 
-def _plain_of(convention: Convention, sample: StaticRecording, robot: RobotModel) -> State | None:
+def _plain_of(
+    convention: Convention, recording: StaticRecording, keep: np.ndarray, robot: RobotModel
+) -> State | None:
     try:
-        return _plain(convention.undone(sample, robot))
+        if convention.needs_neighbours:
+            return _plain(_some(convention.undone(recording, robot), keep))
+        return _plain(convention.undone(_some(recording, keep), robot))
     except (TeachframeError, np.linalg.LinAlgError):
         return None
 
@@ -162,10 +171,15 @@ def _evidence(state: State, original: StaticRecording) -> float:
     return _likelihood(replace(now, residual=residual), original) - occam
 
 
-def _thinned(recording: StaticRecording) -> StaticRecording:
-    """Rows spread over the recording; touched points keep at least two rows."""
+def _some(recording: StaticRecording, keep: np.ndarray) -> StaticRecording:
+    """Rows (m,) of a recording, numbered anew; all of them as they are."""
+    return recording if keep.all() else renumbered(recording.subset(keep))
+
+
+def _thinned(recording: StaticRecording) -> np.ndarray:
+    """(m,) True for rows spread over the recording; touched points keep at least two rows."""
     if recording.size <= CONVENTION_ROWS:
-        return recording
+        return np.ones(recording.size, bool)
     keep = np.zeros(recording.size, bool)
     if recording.mode == "targets":
         step = -(-recording.size // CONVENTION_ROWS)
@@ -180,4 +194,4 @@ def _thinned(recording: StaticRecording) -> StaticRecording:
     if recording.mode == "targets":
         count = np.bincount(recording.target[keep], minlength=len(recording.target_names))
         keep &= count[recording.target] >= 2
-    return renumbered(recording.subset(keep))
+    return keep

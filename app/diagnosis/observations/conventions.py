@@ -15,11 +15,17 @@ from app.kinematics import RobotModel
 from app.phrases import Said
 from app.units import DEG_PER_RAD, MM_PER_CM, MM_PER_INCH, MM_PER_M
 
-SIGN, SWAP, QUARTER, ANGLE_UNIT, LENGTH_UNIT, INVERSE, HORIZON = (float(i) for i in range(7))
+SIGN, SWAP, QUARTER, ANGLE_UNIT, LENGTH_UNIT, INVERSE, HORIZON, MIRROR, LATE = (float(i) for i in range(9))
 #: The kinds, the one that people mix up most first.
-LIKELIHOOD = (SIGN, HORIZON, INVERSE, ANGLE_UNIT, LENGTH_UNIT, QUARTER, SWAP)
+LIKELIHOOD = (SIGN, HORIZON, INVERSE, ANGLE_UNIT, LENGTH_UNIT, MIRROR, QUARTER, LATE, SWAP)
+#: Kinds that say nothing of the joints.
+_OF_THE_INSTRUMENT = (LENGTH_UNIT, INVERSE, MIRROR)
+#: A left-handed frame is a right-handed one whose last axis points the other way, up to where the instrument stands.
+_MIRROR = np.array([1.0, 1.0, -1.0])
 #: What brings lengths to the unit their column states, likeliest first.
 _LENGTH_FACTORS = (MM_PER_M, 1.0 / MM_PER_M, MM_PER_CM, MM_PER_INCH)
+#: Rows by which two devices that were started by hand are apart: one triggered once too often, or a head line was lost.
+_ROWS_APART = (1.0, -1.0, 2.0, -2.0)
 
 
 @dataclass(frozen=True)
@@ -30,9 +36,14 @@ class Convention:
 
     def undone(self, recording: StaticRecording, robot: RobotModel) -> StaticRecording:
         """The recording as it should have been written."""
-        if self.place.fixed["kind"] in (LENGTH_UNIT, INVERSE):
+        if self.place.fixed["kind"] in _OF_THE_INSTRUMENT:
             return self.placed(recording)
         return recording.with_joints(robot, converted_joints(recording.q, self.place.fixed))
+
+    @property
+    def needs_neighbours(self) -> bool:
+        """True where what belongs to a row stands in another one, so that no row can be looked at by itself."""
+        return self.place.fixed["kind"] == LATE
 
     def placed(self, recording: StaticRecording) -> StaticRecording:
         """The same as far as base and tool go: loads and other drivers stay those of the joints as written."""
@@ -42,6 +53,9 @@ class Convention:
             points = None if recording.points is None else recording.points * fixed["factor"]
             lengths = None if recording.lengths is None else recording.lengths * fixed["factor"]
             return replace(recording, points=points, lengths=lengths)
+        if kind == MIRROR:
+            assert recording.points is not None
+            return replace(recording, points=recording.points * _MIRROR)
         if kind == INVERSE:
             assert recording.orientations is not None
             return replace(recording, orientations=np.swapaxes(recording.orientations, 1, 2))
@@ -63,6 +77,8 @@ def converted_joints(q: np.ndarray, fixed: Mapping[str, float]) -> np.ndarray:
         out = q * fixed["factor"]
     elif kind == HORIZON:
         out[:, j] = q[:, j] + fixed["sense"] * q[:, other]
+    elif kind == LATE:
+        out = q[np.clip(np.arange(len(q)) - int(fixed["rows"]), 0, len(q) - 1)]
     return out
 
 
@@ -86,6 +102,12 @@ def title_of(place: Place) -> Said:
         return note("convention_angle_unit")
     if kind == HORIZON:
         return note("convention_horizon", joint=j, other=other)
+    if kind == MIRROR:
+        return note("convention_mirror")
+    if kind == LATE:
+        return note(
+            "convention_late" if fixed["rows"] > 0 else "convention_early", rows=abs(int(fixed["rows"]))
+        )
     if kind == LENGTH_UNIT:
         if fixed["factor"] == MM_PER_INCH:
             return note("convention_inches")
@@ -118,6 +140,10 @@ def conventions(recording: StaticRecording) -> Iterator[Convention]:
     if recording.mode != "targets":
         for factor in _LENGTH_FACTORS:
             yield Convention(Place({"body": "instrument"}, {"kind": LENGTH_UNIT, "factor": factor}))
+        for rows in _ROWS_APART:
+            yield Convention(Place({"body": "instrument"}, {"kind": LATE, "rows": rows}))
+    if recording.mode == "points" and recording.points is not None:
+        yield Convention(Place({"body": "instrument"}, {"kind": MIRROR}))
     for j in joints:
         if not prismatic[j - 1]:
             for turn in (0.5 * np.pi, -0.5 * np.pi, np.pi):

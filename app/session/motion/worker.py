@@ -17,9 +17,9 @@ Job = Callable[[], object]
 #: Ticks a second of motions that run by themselves.
 TICK_HZ = 30.0
 
-#: Held for a tick of any arm of this process. Threads that reckon at once only take the interpreter from each other, and
-#: each that wants it adds to what a word of a page waits: 20 arms that jog at once made that half a second, and the
-#: switch of some fell silent.
+#: Held for a tick of any arm of this process. Threads that reckon at once only take the interpreter from each other,
+#: and each that wants it adds to what a word of a page waits: 20 arms that jog at once made that half a second, and
+#: the switch of some fell silent.
 _TICKING = threading.Lock()
 
 

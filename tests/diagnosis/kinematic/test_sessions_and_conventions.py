@@ -1,6 +1,7 @@
 """What a whole recording's shape must not upset: several sessions, and joints that move one at a time."""
 
 import numpy as np
+import pytest
 
 from app.diagnosis.kinematic.diagnose import diagnose
 from app.geometry import Pose, exp_so3
@@ -62,3 +63,32 @@ def test_a_forearm_shown_against_the_horizon_is_found_where_joints_move_one_at_a
     said = {(f.effect, f.where.get("joint"), f.where.get("source_joint")) for f in found.findings}
     assert ("wrong_convention", 3, 2) in said
     assert not any(effect == "joint_coupling" for effect, _, _ in said)
+
+
+@pytest.mark.parametrize(("rows", "said"), [(1, "1 row(s) below"), (-2, "2 row(s) above")])
+def test_measurements_that_stand_beside_other_joints_are_found_and_cost_those_rows_alone(
+    tmp_path, rows, said
+):
+    q = np.random.default_rng(7).uniform(-1.5, 1.5, (150, 6))  # more rows than are tried at a time
+    true = q[np.clip(np.arange(150) - rows, 0, 149)]
+    true[:rows] += 0.3 * (
+        rows > 0
+    )  # what was measured before the first joints were written, or after the last
+    true[rows:] += 0.3 * (rows < 0)
+    found = diagnosed(tmp_path / "late.csv", true, q, np.zeros(150, int))
+    assert [f.effect for f in found.findings] == ["wrong_convention"] and said in found.findings[0].sentence
+    assert found.verdict == "named" and found.after.fit_rms < 1.2e3 * NOISE
+    assert sorted(found.outliers) == ([5] if rows == 1 else [153, 154])  # lines of the file
+
+
+def test_an_instrument_whose_frame_is_left_handed_is_said_so(tmp_path):
+    q = np.random.default_rng(8).uniform(-1.5, 1.5, (60, 6))
+    path = tmp_path / "left.csv"
+    diagnosed(path, q, q, np.zeros(60, int))
+    head, rows = path.read_text().split("session\n")
+    turned = [line.split(",") for line in rows.splitlines()]
+    mirrored = "\n".join(",".join([*r[:6], r[6], str(-float(r[7])), *r[8:]]) for r in turned)
+    path.write_text(f"{head}session\n{mirrored}\n")
+    found = diagnose(read_table(path), load_robot("ur10e"))
+    assert [f.effect for f in found.findings] == ["wrong_convention"]
+    assert "left-handed" in found.findings[0].sentence and found.after.fit_rms < 1.2e3 * NOISE
