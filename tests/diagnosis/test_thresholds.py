@@ -33,7 +33,7 @@ STAY = {
         "regression/inside.py": {"ROUNDING"},
     },
     "how much is looked at: more of it takes longer and says the same": {
-        "dynamic/events.py": {"PIECES", "SWELLS", "TRIALS", "_LOAD", "_WRENCH"},
+        "dynamic/events.py": {"PIECES", "SWELLS", "TRIALS"},
         "dynamic/gains.py": {"ENOUGH"},
         "dynamic/loads.py": {"SHOWN"},
         "dynamic/ready.py": {"POSES"},

@@ -84,7 +84,7 @@ def _left(
     in_kept = lambda e: laws()[e.effect].family in kept  # noqa: E731
     learnt = () if fitted.prior is None else fitted.prior.effects()
     read = [e for e in (*fitted.given, *undone(fitted, [])) if e not in learnt and in_kept(e)]
-    read += [e for e in effects if e.effect == "wrong_convention" and in_kept(e)]
+    read += [e for e in effects if laws()[e.effect].whole_log and in_kept(e)]
     hypothesis = hypothesis_of([*read, *learnt], joints) if read or learnt else as_given(joints)
     own = study.state.hypothesis
     inside = [m for m in found if not m.held and m.candidate.law.family in kept]

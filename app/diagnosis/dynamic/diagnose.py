@@ -19,16 +19,9 @@ from app.diagnosis.model import ModelEffect, SavedModel
 from app.diagnosis.models.dynamic.library import laws
 from app.diagnosis.models.dynamic.saved import hypothesis_of
 from app.diagnosis.result import Diagnosis, Progress
-from app.diagnosis.thresholds.evidence import SAME_DRIVE
 from app.diagnosis.thresholds.naming_logs import CHANGE
 from app.kinematics import RobotModel
 from app.recordings import Table
-
-#: Between two logs of one arm its links keep their masses: one at which they changed has a load on it.
-ONE_LINK = frozenset({"link_inertia"})
-SAME_ARM = {"torque_constant": SAME_DRIVE}
-#: What most often changed between two logs of one arm: the search starts from it too.
-LIKELY = ("payload",)
 
 
 def diagnose(
@@ -68,7 +61,10 @@ def diagnose(
         )
         prior = known_from(known)
         given = (*undone_of(known), *prior.effects())
-        stretch, first, single = {**stretch, **SAME_ARM}, LIKELY, ONE_LINK
+        known_laws = laws()
+        stretch |= {key: law.between_logs for key, law in known_laws.items() if law.between_logs != 1.0}
+        first = tuple(key for key, law in known_laws.items() if law.likely)
+        single = frozenset(key for key, law in known_laws.items() if law.one_place)
     tell(0.45 if reference is not None else 0.1, "mounting, senses, units")
     reading = (
         reading_of(log, robot, motion)

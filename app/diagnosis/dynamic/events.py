@@ -21,11 +21,6 @@ from app.diagnosis.thresholds.events import EDGE, LONGEST, MARGIN, MOST, MOVING,
 PIECES = 60  # of the log: edges of events are looked for at their ends first, and moved continuously then
 SWELLS = (1.0, 1.3)  # lengths of a contact that swells and fades over that of the best even one
 TRIALS = 40  # edges of such a contact that are tried
-CHANGE, CONTACT = "payload_change", "contact"
-_LOAD, _WRENCH = (
-    slice(0, 10),
-    slice(10, 16),
-)  # columns of a body at the flange, and of a force and a moment there
 
 
 class Events:
@@ -33,9 +28,13 @@ class Events:
 
     def __init__(self, design: TorqueDesign, evidence: Evidence, state: State, without: frozenset[str]):
         self.design, self.evidence, self.state = design, evidence, state
-        self.laws = {k: v for k, v in laws().items() if k in (CHANGE, CONTACT) and k not in without}
-        if state.joints < 2:  # a torque for a while on one joint is no force at a flange
-            self.laws.pop(CONTACT, None)
+        # what has one end has fewer places, and comes first
+        self._every = sorted((law for law in laws().values() if law.ends), key=lambda law: len(law.ends))
+        self.laws = {
+            law.key: law for law in self._every if law.key not in without and state.joints >= law.least_joints
+        }
+        ends = np.cumsum([0, *(len(law.linear) for law in self._every)]).tolist()
+        self._own = {k.key: slice(a, b) for k, a, b in zip(self._every, ends, ends[1:], strict=False)}
         self._posterior: tuple[Selection, Posterior] | None = None
         self.forget()
 
@@ -105,7 +104,7 @@ class Events:
             if gain < max(MARGIN, 0.3 * best):
                 continue
             law = self.laws[key]
-            cost = np.log(PIECES) * (1 if key == CHANGE else 2)
+            cost = np.log(PIECES) * len(law.ends)
             build = lambda law=law, where=where, cost=float(cost): self._take(selection, law, where, cost)  # noqa: E731
             yield Offer(gain - MARGIN, 1.0, build)
 
@@ -128,25 +127,37 @@ class Events:
         at = lambda k: float(t[min(edges[k], rows - 1)])  # noqa: E731
         share = self._moved()
         first = np.flatnonzero((share[edges] >= EDGE) & (share[edges] <= 1.0 - EDGE))
-        if CHANGE in self.laws and len(first):
-            gain = gains(gram, cross, right, inverse, first, np.full(len(first), PIECES), _LOAD)
+        for key, law in self.laws.items():
+            if len(law.ends) == 1:
+                begin, last = first, np.full(len(first), PIECES)
+                choices = float(np.log(max(len(first), 1)))
+            else:
+                begin, last = self._windows(share[edges] * PIECES)
+                choices = 2.0 * float(np.log(PIECES))
+            if not len(begin):
+                continue
+            gain = gains(gram, cross, right, inverse, begin, last, self._own[key])
             best = int(gain.argmax())
-            out.append((CHANGE, {"from_s": at(first[best])}, float(gain[best] - np.log(len(first)) - 2.0)))
-        if CONTACT in self.laws:
-            longest = int(LONGEST * PIECES)
-            at_edges = share[edges] * PIECES  # friction at rest hides what pushes then
-            pairs = [
-                (x, y)
-                for x in range(PIECES)
-                for y in range(x + 2, min(PIECES, x + longest) + 1)
-                if at_edges[y] - at_edges[x] > MOVING * (y - x)
-            ]
-            first, last = np.array(pairs).T
-            gain = gains(gram, cross, right, inverse, first, last, _WRENCH)
-            best = int(gain.argmax())
-            where = {"from_s": at(first[best]), "to_s": at(last[best])}
-            out.append((CONTACT, where, float(gain[best] - 2.0 * np.log(PIECES) - 2.0)))
+            where = dict(zip(law.ends, (at(begin[best]), at(last[best])), strict=False))
+            out.append((key, where, float(gain[best] - choices - 2.0)))
         return out
+
+    @staticmethod
+    def _windows(at_edges: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """First and last piece of every window that is tried: friction at rest hides what pushes then.
+
+        Args:
+            at_edges: (pieces + 1,) motion before each piece, in pieces of even motion.
+        """
+        longest = int(LONGEST * PIECES)
+        pairs = [
+            (x, y)
+            for x in range(PIECES)
+            for y in range(x + 2, min(PIECES, x + longest) + 1)
+            if at_edges[y] - at_edges[x] > MOVING * (y - x)
+        ]
+        first, last = np.array(pairs).T
+        return first, last
 
     def _moved(self) -> np.ndarray:
         """(rows + 1,) share of the log's motion before each row: a load at rest is one with what friction holds."""
@@ -159,8 +170,7 @@ class Events:
         """Columns of a load and of a force, scaled to nominal widths, whitened, of the whole log."""
         if self._columns is None:
             everything = []
-            for key in (CHANGE, CONTACT):
-                law = laws()[key]
+            for law in self._every:
                 columns, widths = law.block(self.state, Place({"body": "tool"}))
                 everything.append({j: c * widths for j, c in columns.items()})
             self._columns = [
@@ -171,7 +181,7 @@ class Events:
 
     def moved(self, selection: Selection, law: Law, place: Place) -> Place:
         """An event with its edges where they bring most beside a selection."""
-        where = {k: float(place.where[k]) for k in ("from_s", "to_s") if k in place.where}
+        where = {k: float(place.where[k]) for k in law.ends}
         return self._refined(selection, law, where, place.cost)[0]
 
     def _refined(
@@ -179,19 +189,19 @@ class Events:
     ) -> tuple[Place, float]:
         """Edges at single rows, each in turn at the most evidence; a contact may also swell and fade."""
         inverse, parts, residual = self._beside(selection)
-        own = _LOAD if law.key == CHANGE else _WRENCH
-        white = [z[:, own] for z in self._whitened()]
+        once = len(law.ends) == 1
+        white = [z[:, self._own[law.key]] for z in self._whitened()]
         rows = len(residual[0])
         t = self.state.t[SKIPPED:]
         edges = [int(np.searchsorted(t, time)) for time in where.values()]
         share = self._moved()
-        if law.key == CHANGE:
+        if once:
             edges.append(rows)
         reach, least = 2 * rows // PIECES, max(int(SHORTEST / max(float(np.median(np.diff(t))), 1e-9)), 2)
-        for k in (0,) if law.key == CHANGE else (0, 1, 0, 1):
+        for k in (0,) if once else (0, 1, 0, 1):
             low = max(0 if k == 0 else edges[0] + least, edges[k] - reach)
             high = max(min(edges[1] - least if k == 0 else rows, edges[k] + reach), low)
-            if law.key == CHANGE:
+            if once:
                 inside = np.flatnonzero((share >= EDGE) & (share <= 1.0 - EDGE))
                 low, high = max(low, int(inside[0])), max(min(high, int(inside[-1])), int(inside[0]))
             # Sums over the part that every trial has, and row by row over what it may have more.
@@ -205,12 +215,13 @@ class Events:
             gain = block_gains(gram, cross, right, inverse)
             if len(gain):  # none where the log ends before the shortest event does
                 edges[k] = low + int(gain.argmax())
-        ends = ("from_s",) if law.key == CHANGE else ("from_s", "to_s")
         step = float(np.median(np.diff(t)))
         times = [float(t[min(k, rows - 1)]) - (0.5 * step if k < rows else -step) for k in edges]
-        place = Place({"body": "tool", "driver": "time", **dict(zip(ends, times, strict=False))}, cost=cost)
+        place = Place(
+            {"body": "tool", "driver": "time", **dict(zip(law.ends, times, strict=False))}, cost=cost
+        )
         best = self._at_exact_rows(selection, law, place, step)
-        if law.key == CONTACT:
+        if law.swells:
             swelling = self._swelling(selection, law, place)
             best = max(best, swelling, key=lambda found: found[0])
         return best[1], best[0]
@@ -224,7 +235,7 @@ class Events:
         rows off as the noise remembers.
         """
         best = (self.gain(selection, law, place), place)
-        for end in [end for end in ("from_s", "to_s") if end in place.where]:
+        for end in law.ends:
             for rows in (-4, -3, -2, -1, 1, 2, 3, 4):
                 trial = Place(
                     {**best[1].where, end: place.where[end] + rows * step}, place.fixed, cost=place.cost

@@ -198,14 +198,14 @@ def _lags(fitted: Fitted, named: list[Member]) -> tuple[Finding, ...]:
     found = lag_findings(log, fitted.study.state.sliding)
     if log.stiffness is None:
         return found
-    one = [law for law in laws().values() if "delay" in law.servo_alike]
+    late = {law.key for law in laws().values() if law.follows_commands}
+    one = [law for law in laws().values() if late & set(law.servo_alike)]
     there = {m.candidate.place.where.get("joint") for m in named if m.candidate.law in one}
     alike = lambda f: tuple(Alternative(law.key, {"joint": f.where["joint"]}, 0.0) for law in one)  # noqa: E731
     return tuple(replace(f, alternatives=alike(f)) for f in found if f.where["joint"] not in there)
 
 
 def _reading_findings(fitted: Fitted, before: Quality, after: Quality) -> tuple[Finding, ...]:
-    law = laws()["wrong_convention"]
     return tuple(
         Finding(
             effect=law.key, where=dict(place.where),
@@ -213,8 +213,8 @@ def _reading_findings(fitted: Fitted, before: Quality, after: Quality) -> tuple[
             heldout_rms_without=before.heldout_rms, heldout_rms_with=after.heldout_rms, alternatives=(),
             sentence=law.sentence(place, ()), equation=law.equation,
         )
-        for key, place in fitted.reading.places
-        if key == law.key
+        for law, place in ((trial.law, trial.place) for trial in fitted.reading.taken)
+        if law.whole_log
     )  # fmt: skip
 
 

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from app.diagnosis.dynamic.conventions import EACH, Reading
+from app.diagnosis.dynamic.conventions import Reading
 from app.diagnosis.dynamic.crossed import by_prediction
 from app.diagnosis.dynamic.families import completed
 from app.diagnosis.dynamic.labels import identity
@@ -190,12 +190,10 @@ def _settled(study: Study, hypothesis: Hypothesis, taken, *, plain: bool = False
 def _kept(reading: Reading) -> frozenset[tuple[str, int]]:
     """Undone laws that the reading holds already."""
     out: set[tuple[str, int]] = set()
-    for key, place in reading.places:
-        if key == "gravity_direction":
-            out.add((key, 0))
-        elif key == "torque_constant":
-            each = range(1, reading.hypothesis.joints + 1)
-            out |= {(key, j) for j in each} if place.where.get("kind") == EACH else {(key, 0)}
+    for trial in reading.taken:
+        if not trial.law.whole_log:
+            joints = range(1, reading.hypothesis.joints + 1) if trial.each else (0,)
+            out |= {(trial.law.key, j) for j in joints}
     return frozenset(out)
 
 

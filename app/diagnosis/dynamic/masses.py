@@ -6,22 +6,13 @@ trust whose width is learnt. Source: as in app/diagnosis/regression/evidence.py.
 
 from __future__ import annotations
 
-from typing import Protocol
-
 import numpy as np
 
-from app.diagnosis.effects.dynamic.link_inertia import EFFECT as LINK
-from app.diagnosis.models.dynamic.samples import Samples
+from app.diagnosis.effects.dynamic._law import Law
+from app.diagnosis.effects.dynamic._reading import Read
+from app.diagnosis.models.dynamic.library import laws
 from app.diagnosis.thresholds.readings import COST, TOGETHER
 from app.kinematics.dynamics import PER_LINK
-
-
-class Read(Protocol):
-    """A log under a reading, with friction of each joint ready to be projected off."""
-
-    samples: Samples
-
-    def off(self, j: int, values: np.ndarray) -> np.ndarray: ...
 
 
 def masses_do_worse(given: Read, factored: Read) -> bool:
@@ -33,10 +24,16 @@ def masses_do_worse(given: Read, factored: Read) -> bool:
     return after - 0.5 * len(factors) * float(np.log(rows)) > before + COST
 
 
+def _link() -> Law:
+    """The law of the masses that the description states."""
+    return next(law for law in laws().values() if law.stated)
+
+
 def _columns(read: Read, j: int) -> np.ndarray:
     """(M, p) masses of all links beyond joint j, in their nominal widths, friction projected off."""
     state = read.samples.state
-    widths = np.concatenate([LINK.widths(state, place) for place in LINK.places(state)])
+    link = _link()
+    widths = np.concatenate([link.widths(state, place) for place in link.places(state)])
     return read.off(j, state.regressor[:, j, PER_LINK * j :] * widths[PER_LINK * j :])
 
 
@@ -68,6 +65,6 @@ def _evidence(read: Read, noise: np.ndarray) -> float:
     scores = [
         0.5 * float(np.sum(along**2 * trust / (1.0 + trust * values)))
         - 0.5 * float(np.sum(np.log1p(trust * values)))
-        for trust in LINK.spread
+        for trust in _link().spread
     ]
     return max(scores) - 0.5 * total

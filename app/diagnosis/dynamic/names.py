@@ -11,7 +11,7 @@ from app.diagnosis.dynamic.solution import Solution
 from app.diagnosis.dynamic.study import Study
 from app.diagnosis.models.dynamic.library import Candidate, laws
 from app.diagnosis.thresholds.naming import MEMBER_WALD, MEMBER_WALD_PARAMETER, RIVAL
-from app.diagnosis.thresholds.naming_logs import CURVE, NAME, RIPPLES, SHARE, STANDS_OUT, TRUST
+from app.diagnosis.thresholds.naming_logs import CURVE, NAME, RIPPLES, SHARE, STANDS_OUT
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,7 +47,7 @@ class Member:
     @property
     def asks_for_a_name(self) -> bool:
         """True for what is no part of a description within its trust: large and without a name, it is structure."""
-        return self.candidate.law.finding and self.candidate.law.key != "link_inertia"
+        return self.candidate.law.finding and not self.candidate.law.stated
 
 
 def members(
@@ -82,7 +82,7 @@ def members(
         held = study.label(g).held
         weights = 0.0 * weights if held else solution.of(columns)[0]
         scale = study.design.scale[columns]
-        in_all = _stands_for(study, candidate) if held else weights
+        in_all = _held(study, candidate) if held else weights
         gain, statistic = _worth(study, g, columns, in_all, covariance)
         without = left + study.design.prediction(columns, in_all)
         share = float(np.clip((np.mean(without**2) - np.mean(left**2)) / total, 0.0, 1.0))
@@ -95,10 +95,10 @@ def members(
             adds = np.sqrt(np.mean(study.design.prediction(columns, in_all) ** 2, axis=0))
             large = share >= SHARE or study.prior is not None  # against another log, CHANGE decides
             named = named and large and bool(np.any((adds > 0) & (adds >= STANDS_OUT * structure)))
-        if candidate.law.key == "torque_ripple":
+        if candidate.law.series:
             named = named and ripples[candidate.place.where["joint"]] <= RIPPLES
         named = named and (candidate.law.key, candidate.place.where.get("joint")) not in contained
-        named = named and candidate.law.family != "unnamed" and _beyond_trust(candidate, weights)
+        named = named and candidate.law.family != "unnamed" and candidate.law.beyond_trust(weights)
         if study.label(g).whole:
             needed = MEMBER_WALD + MEMBER_WALD_PARAMETER * (len(columns) - 1)
             named = named and statistic > needed
@@ -144,10 +144,10 @@ def _shaped(study: Study, member: Member, found: list[Member]) -> bool:
 
 
 def waves(study: Study) -> dict[object, int]:
-    """How many waves of the own angle each joint has."""
+    """How many terms of a series each joint has: waves of its own angle."""
     out: dict[object, int] = {}
     for g in study.selection:
-        if study.label(g).law.key == "torque_ripple":
+        if study.label(g).law.series:
             joint = study.label(g).place.where["joint"]
             out[joint] = out.get(joint, 0) + 1
     return out
@@ -175,18 +175,10 @@ def _all(study: Study):
                 yield g, own, group.columns
 
 
-def _stands_for(study: Study, candidate: Candidate) -> np.ndarray:
+def _held(study: Study, candidate: Candidate) -> np.ndarray:
     """Weights by which the columns of an undone law stand for what the hypothesis holds of it already."""
-    fixed, widths = candidate.place.fixed, candidate.law.widths(study.state, candidate.place)
-    if "fixed_delay" in fixed:
-        return np.array([study.state.hypothesis.delay]) / widths
-    if "fixed_scale" in fixed:
-        joint = int(candidate.place.where.get("joint", 1)) - 1
-        return np.array([study.state.hypothesis.factors[joint] - 1.0]) / widths
-    tilt = float(np.linalg.norm(study.state.hypothesis.gravity)) * np.sin(
-        min(study.state.hypothesis.tilt, np.pi / 2)
-    )
-    return np.array([tilt, 0.0]) / widths
+    law, place = candidate.law, candidate.place
+    return law.held(study.state.hypothesis, place) / law.widths(study.state, place)
 
 
 def _worth(study: Study, g: int, columns, weights, covariance) -> tuple[float, float]:
@@ -204,13 +196,6 @@ def _visible(study: Study, columns: np.ndarray, covariance: np.ndarray) -> float
     alone = np.maximum(np.diag(study.design.matrix)[columns], 1e-12)
     beside = 1.0 / np.maximum(np.diag(covariance), 1e-300)
     return float(np.sqrt(np.clip(np.max(beside / alone), 0.0, 1.0)))
-
-
-def _beyond_trust(candidate: Candidate, weights: np.ndarray) -> bool:
-    """Masses within the trust that the description deserves are none of a name."""
-    if candidate.law.key != "link_inertia":
-        return True
-    return bool(np.sqrt(np.mean(weights[:4] ** 2)) > TRUST)
 
 
 def rivals(study: Study, member: Member) -> tuple[tuple[Candidate, float], ...]:

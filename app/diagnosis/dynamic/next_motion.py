@@ -15,14 +15,12 @@ from app.diagnosis.wording import effect, joint_or_arm, note
 COUNT = 3
 APART = 0.5  # rad between two proposals
 SPEEDS = (0.3, 1.0)  # of the log's usual speed: laws of one joint differ most between slow and fast
-#: Remarks on what another recording would separate: `apart_EFFECT`.
-SEPARATES = ("payload", "torque_constant", "friction_asymmetry")
 
 
 def next_motion(fitted: Fitted, named: list[Member]) -> tuple[tuple[tuple[float, ...], ...], tuple[str, ...]]:
     """Poses (at most COUNT) of this log's path to pass again, and sentences on what to record."""
-    keys = dict.fromkeys(m.candidate.law.key for m in named)
-    said = tuple(note(f"apart_{key}") for key in keys if key in SEPARATES)
+    keys = dict.fromkeys(m.candidate.law.key for m in named if m.candidate.law.apart)
+    said = tuple(note(f"apart_{key}") for key in keys)
     pair = next(((m, r[0][0]) for m in named if (r := rivals(fitted.asked, m))), None)
     if pair is None:
         return (), said

@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from app.diagnosis.dynamic.gains import estimated_gains
+from app.diagnosis.models.dynamic.library import laws
 from app.diagnosis.models.dynamic.smoothing import Motion, motion_of
 from app.diagnosis.observations.effort import GAIN
 from app.diagnosis.observations.joint_log import Log, read_log
@@ -19,8 +20,6 @@ from app.phrases import Said
 from app.recordings import Table
 from app.units import deg, mm
 
-#: Law whose widths a header states.
-MASSES = "link_inertia"
 POSES = 200  # of a log, at which the weight of its joints is looked at
 
 
@@ -36,7 +35,7 @@ def ready(table: Table, robot: RobotModel) -> tuple[Log, Motion, frozenset[str]]
     if log.lacking:
         gains, sigmas = estimated_gains(log, robot, motion, table)
         told = np.isfinite(sigmas)
-        trust = NOMINAL * trust_of(table)[MASSES]  # what is told by the weight is known as well as that is
+        trust = NOMINAL * _trust(table)  # what is told by the weight is known as well as that is
         sigmas = np.hypot(sigmas, trust * gains)
         said = tuple(f"{g:.3g} ± {s:.2g}" for g, s in zip(gains[told], sigmas[told], strict=True))
         remarks = [note("gains_estimated" if log.lacking == GAIN else "stiffness_estimated", gains=said)]
@@ -46,7 +45,7 @@ def ready(table: Table, robot: RobotModel) -> tuple[Log, Motion, frozenset[str]]
         stiffness = None if log.stiffness is None else np.where(told, gains, np.nan)
         notes = (*log.notes, *remarks[0 if told.any() else 1 :])
         log = replace(log, y=log.y * gains, lacking="", notes=notes, stiffness=stiffness)
-        without = frozenset({"torque_constant"})
+        without = frozenset(key for key, law in laws().items() if law.gain)
     if log.stiffness is not None:
         log = replace(log, notes=(*log.notes, *_sag(log, robot, log.stiffness)))
     return log, motion, without
@@ -72,6 +71,10 @@ def trust_of(table: Table) -> dict[str, float]:
     Raises:
         CellValueError: it says nothing that can be understood.
     """
+    return {key: _trust(table) for key, law in laws().items() if law.stated}
+
+
+def _trust(table: Table) -> float:
     share = table.keys.get("inertial_prior")
     if share is not None:
         number = isinstance(share, int | float) and not isinstance(share, bool)
@@ -82,10 +85,10 @@ def trust_of(table: Table) -> dict[str, float]:
                 column="inertial_prior",
                 expected="a positive share, such as 0.05",
             )
-        return {MASSES: float(share) / NOMINAL}
+        return float(share) / NOMINAL
     stated = table.keys.get("inertials", "cad")
     if stated not in TRUSTS:
         raise CellValueError(
             f"found {str(stated)[:40]!r}", file=table.path, column="inertials", expected=" or ".join(TRUSTS)
         )
-    return {MASSES: TRUSTS[str(stated)]}
+    return TRUSTS[str(stated)]

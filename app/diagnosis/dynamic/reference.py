@@ -29,13 +29,6 @@ from app.diagnosis.models.dynamic.state import State
 from app.diagnosis.thresholds.evidence import DRIFT
 from app.diagnosis.thresholds.naming import MEMBER_WALD, MEMBER_WALD_PARAMETER
 
-DRIFTING = (
-    "viscous_friction",
-    "coulomb_friction",
-    "load_friction",
-    "quadratic_friction",
-    "stribeck_friction",
-)
 KEY = "known_before"
 
 
@@ -125,7 +118,7 @@ def known_from(fitted: Fitted, drift: float = DRIFT) -> KnownBefore:
     scale = study.design.scale[columns]
     mean, covariance = weights * scale, covariance * scale[:, None] * scale
     for term in terms:
-        if term.law.key in DRIFTING:
+        if term.law.drifts:
             covariance[term.part, term.part] += np.diag((drift * mean[term.part]) ** 2)
     return KnownBefore(tuple(terms), mean, covariance)
 

@@ -77,7 +77,8 @@ class Rules:
     def _is_load(self, candidate: Candidate) -> bool:
         """True for the last link alone: what is fixed to it is a load on the flange, which says so."""
         last = candidate.place.where.get("link") == self.joints
-        return last and not candidate.whole and "payload" not in self.without
+        load = candidate.law.added
+        return bool(load) and last and not candidate.whole and load not in self.without
 
     def _clashes(self, candidate: Candidate) -> set[str]:
         """Keys of laws that no log tells from this one."""

@@ -8,6 +8,7 @@ from app.diagnosis.dynamic.fitting import Fitted
 from app.diagnosis.dynamic.names import Member
 from app.diagnosis.effects.dynamic._friction import WIDTH
 from app.diagnosis.model import ModelEffect, Taught
+from app.diagnosis.models.dynamic.library import laws
 from app.diagnosis.models.dynamic.saved import fingerprint, hypothesis_of
 from app.diagnosis.result import Quality
 
@@ -18,38 +19,26 @@ POSES = 60  # kept of where a model was learnt
 def readings(fitted: Fitted) -> tuple[ModelEffect, ...]:
     """Conventions of the log; mounting, delay and factors are in the selection, with their values."""
     return tuple(
-        ModelEffect(key, dict(place.where), dict(place.fixed))
-        for key, place in fitted.reading.places
-        if key == "wrong_convention"
+        ModelEffect(trial.law.key, dict(trial.place.where), dict(trial.place.fixed))
+        for trial in fitted.reading.taken
+        if trial.law.whole_log
     )
 
 
 def undone(fitted: Fitted, found: list[Member]) -> tuple[ModelEffect, ...]:
     """Mounting, delay and factors as the hypothesis holds them, beyond those of a model that was given."""
-    now, n = fitted.study.state.hypothesis, fitted.robot.joint_count
-    before = hypothesis_of(fitted.given, n)
-    named = {(m.candidate.law.key, int(m.candidate.place.where.get("joint", 0))) for m in found if m.named}
-    out: list[ModelEffect] = []
-
-    def add(key: str, where: dict, parameters: dict[str, float]) -> None:
-        out.append(ModelEffect(key, where, parameters, named=(key, int(where.get("joint", 0))) in named))
-
-    if np.any(now.gravity) and not np.allclose(now.gravity, before.gravity):
-        g: dict[str, float] = dict(zip(("gx", "gy", "gz"), map(float, now.gravity), strict=True))
-        add("gravity_direction", {"body": "base", "driver": "gravity_torque"}, g)
-    if now.delay != before.delay:
-        add("delay", {"driver": "time"}, {"delay": now.delay - before.delay})
-    factors = now.factors / before.factors
+    now = fitted.study.state.hypothesis
+    before = hypothesis_of(fitted.given, fitted.robot.joint_count)
     for m in found:
         if not m.held and m.candidate.law.undone:
-            factors[int(m.candidate.place.where["joint"]) - 1] *= 1.0 + float(m.values[0])
-    scale = factors - 1.0
-    if n > 1 and np.allclose(scale, scale[0], rtol=1e-9) and scale[0]:
-        add("torque_constant", {}, {"scale": float(scale[0])})
-    else:
-        for j in np.flatnonzero(scale):
-            add("torque_constant", {"joint": int(j) + 1}, {"scale": float(scale[j])})
-    return tuple(out)
+            now = m.candidate.law.undo(now, m.candidate.place, m.values)
+    named = {(m.candidate.law.key, int(m.candidate.place.where.get("joint", 0))) for m in found if m.named}
+    return tuple(
+        ModelEffect(law.key, dict(where), dict(values), named=(law.key, int(where.get("joint", 0))) in named)
+        # what is of the arm first, then of the recording, then what scales it all
+        for law in sorted(laws().values(), key=lambda law: (law.gain, not law.carried))
+        for where, values in law.between(now, before)
+    )
 
 
 def undone_of(fitted: Fitted) -> tuple[ModelEffect, ...]:

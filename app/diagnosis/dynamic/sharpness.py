@@ -15,15 +15,16 @@ def learnt_widths(samples: Samples) -> np.ndarray:
     state = samples.state
     y = samples.y - samples.description
     out = state.width.copy()
-    rows, rest = len(y), laws()["rest_friction"]
+    rows, still = len(y), [law for law in laws().values() if law.standstill]
     for j in range(state.joints):
         if not state.moves(j):
             continue
         qd = state.qd[:, j]
         own = [np.ones(rows), qd, qd * np.abs(qd), state.qdd[:, j]]
         rests = [
-            rest.columns(state, place)[j][:, 0]
-            for place in rest.places(state)
+            law.columns(state, place)[j][:, 0]
+            for law in still
+            for place in law.places(state)
             if place.where["joint"] == j + 1
         ]
         fixed = np.hstack([state.regressor[:, j, PER_LINK * j :], np.stack([*own, *rests], axis=1)])

@@ -10,6 +10,7 @@ import numpy as np
 
 from app.diagnosis.effects.described import Change, InJoint
 from app.diagnosis.effects.dynamic._friction import WIDTH
+from app.diagnosis.effects.dynamic._reading import Read, Trial
 from app.diagnosis.effects.effect import Effect, Place, Quantity
 from app.diagnosis.models.dynamic.hypothesis import Hypothesis
 from app.diagnosis.models.dynamic.state import State
@@ -37,11 +38,16 @@ class Law(Effect[State, State, np.ndarray]):
         positive: parameters that cannot be below zero in an arm as such.
         carried: True where its torque is part of what the gears carry (masses, loads, gravity): laws of load follow it.
         follows_load: True where its columns are made of the torque that the gears carry.
-        windowed: True where it acts from a time on, or between two times: it is searched for over the log.
+        ends: keys of `where` that hold the times between which it acts, or the one from which on; it is searched for
+            over the log where there are any.
+        swells: True where it may rise and fall between its times, as half a sine.
+        least_joints: an arm with fewer has no such thing.
         blunt: True where the direction of dry friction is in it: its sharpness is saved along.
         bent: shape value -> nepers to either side within which the fit may bend it.
         clashes: keys of laws that it is never in together with where it acts on the whole arm: no log tells them.
         contains: key of a law on the same joint whose columns this one has too: the two are never in together.
+        series: True where several of them add up on a joint; more of those than a few are a curve, and no law.
+        standstill: True where it acts in a joint that stands still.
         finding: False for what every arm has and no one is told of on its own.
         spread: of all its places as one family, variances over those of the nominal widths that are tried; the
             library's own where empty.
@@ -49,6 +55,14 @@ class Law(Effect[State, State, np.ndarray]):
         sure: True where its nominal width is a trust: in an arm that is off everywhere it is off by as much.
         beside: key of a family that must be in before all its places are taken as one.
         gain: True where it scales what is recorded of a torque.
+        stated: True where the description says it, as well as the header says: within that trust it needs no name.
+        drifts: True where it is somewhat otherwise from one log of an arm to the next.
+        likely: True for what most often changed between two logs of one arm: the search starts from it too.
+        one_place: True where between two logs of one arm it changes at one place, and not everywhere.
+        between_logs: how far its values may be off between two logs of one arm, over their nominal widths.
+        apart: True where words say what other recording tells it from its rivals (`apart_` and its key).
+        whole_log: True for a convention of the whole log, which has no columns: only `readings` offers it.
+        follows_commands: True where a joint that answers its commands late is told as it.
         added: key of the law that a change of the same columns is where it is a body fixed to the link.
         servo_alike: keys of laws on the same joint that look the same where a servo's error stands for its torque.
         in_joint: saved parameter -> the word a description of joints has for it, see `InJoint`.
@@ -62,21 +76,46 @@ class Law(Effect[State, State, np.ndarray]):
     penalty = PENALTY
     carried = False
     follows_load = False
-    windowed = False
+    ends: ClassVar[Sequence[str]] = ()
+    swells = False
+    least_joints = 1
     blunt = False
     bent: ClassVar[Mapping[str, float]] = {}
     clashes: ClassVar[Sequence[str]] = ()
     contains = ""
+    series = False
+    standstill = False
     finding = True
     spread: ClassVar[Sequence[float]] = ()
     certain = False
     sure = False
     beside = ""
     gain = False
+    stated = False
+    drifts = False
+    likely = False
+    one_place = False
+    between_logs = 1.0
+    apart = False
+    whole_log = False
+    follows_commands = False
     added = ""
     servo_alike: ClassVar[Sequence[str]] = ()
     in_joint: ClassVar[Mapping[str, str]] = {}
     within = ""
+
+    @property
+    def windowed(self) -> bool:
+        """True where it acts from a time on, or between two times: it is searched for over the log."""
+        return bool(self.ends)
+
+    def lasts(self, where: Where) -> bool:
+        """False for what happened once, in its own log."""
+        return self.lasting and "from_s" not in where
+
+    def beyond_trust(self, weights: np.ndarray) -> bool:
+        """False for values (d,), in nominal widths, within the trust that the description deserves."""
+        return True
 
     @abstractmethod
     def columns(self, columns: State, place: Place) -> Torques:  # pyright: ignore[reportIncompatibleMethodOverride]
@@ -138,6 +177,22 @@ class Law(Effect[State, State, np.ndarray]):
     def undo(self, hypothesis: Hypothesis, place: Place, values: np.ndarray) -> Hypothesis:
         """Another reading of the log, under which the effect with these linear values (d,) is gone (`undone` only)."""
         return hypothesis
+
+    def readings(self, now: Hypothesis, read: Read) -> Iterable[Trial]:
+        """Readings of the whole log to try on top of one, by what that leaves of its torques."""
+        return ()
+
+    def read_as(self, hypothesis: Hypothesis, where: Where, parameters: Values) -> Hypothesis:
+        """A reading of the log with a saved effect taken into it (`undone` only)."""
+        return hypothesis
+
+    def between(self, now: Hypothesis, before: Hypothesis) -> Iterable[tuple[Where, Values]]:
+        """Places and values of the effect by which one reading differs from another."""
+        return ()
+
+    def held(self, hypothesis: Hypothesis, place: Place) -> np.ndarray:
+        """(d,) values [SI] by which its columns stand for what a reading holds of it already (`undone` only)."""
+        return np.zeros(len(self.linear))
 
     def lawful(self, parameters: Values) -> bool:
         """False where the values are none a real arm can have."""

@@ -28,7 +28,9 @@ class Contact(Law):
     equation = "tau = (from_s <= t < to_s) * J^T (force, moment)"
     units: ClassVar[Mapping[str, str]] = {**dict.fromkeys(_FORCE, "N"), **dict.fromkeys(_MOMENT, "Nm")}
     linear = _FORCE + _MOMENT
-    windowed = True
+    ends = ("from_s", "to_s")
+    swells = True
+    least_joints = 2  # a torque for a while on one joint is no force at a flange
     lasting = False
 
     def places(self, situation: State) -> Iterable[Place]:

@@ -22,6 +22,7 @@ class CoulombFriction(JointLaw):
     linear = ("coulomb",)
     in_joint: ClassVar = {"coulomb": "friction"}
     positive = ("coulomb",)
+    drifts = True
     whole = True
 
     def column(self, state: State, joint: int, fixed: Values) -> np.ndarray:

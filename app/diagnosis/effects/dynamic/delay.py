@@ -29,6 +29,7 @@ class Delay(Law):
     linear = ("delay",)
     undone = True
     follows_load = True
+    follows_commands = True
 
     def places(self, situation: State) -> Iterable[Place]:
         return [Place({"driver": "time"}, {"fixed_delay": situation.hypothesis.delay})]
@@ -45,8 +46,20 @@ class Delay(Law):
     def undo(self, hypothesis: Hypothesis, place: Place, values: np.ndarray) -> Hypothesis:
         return replace(hypothesis, delay=self.saved(place, values)["delay"])
 
-    def torque(self, state: State, where: Where, parameters: Values) -> Torques:
+    def read_as(self, hypothesis: Hypothesis, where: Where, parameters: Values) -> Hypothesis:
         if "joint" in where:  # late against its command: the torques belong to the measured motion
+            return hypothesis
+        return replace(hypothesis, delay=hypothesis.delay + parameters["delay"])
+
+    def between(self, now: Hypothesis, before: Hypothesis) -> Iterable[tuple[Where, Values]]:
+        if now.delay != before.delay:
+            yield {"driver": "time"}, {"delay": now.delay - before.delay}
+
+    def held(self, hypothesis: Hypothesis, place: Place) -> np.ndarray:
+        return np.array([hypothesis.delay])
+
+    def torque(self, state: State, where: Where, parameters: Values) -> Torques:
+        if "joint" in where:
             return {}
         late = state.t - parameters["delay"]
         return {j: np.interp(late, state.t, c) - c for j, c in enumerate(state.torque.T)}

@@ -22,6 +22,7 @@ class FrictionAsymmetry(JointLaw):
     linear = ("offset",)
     in_joint: ClassVar = {"offset": "offset"}
     whole = True
+    apart = True
 
     def places(self, situation: State) -> Iterable[Place]:
         return [Place({"joint": j + 1, "driver": self.driver}) for j in range(situation.joints)]

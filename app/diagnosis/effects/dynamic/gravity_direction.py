@@ -10,14 +10,18 @@ import numpy as np
 
 from app.diagnosis.effects.described import Gravity
 from app.diagnosis.effects.dynamic._law import Law, Torques, Values, Where, everywhere
+from app.diagnosis.effects.dynamic._reading import Read, Trial
 from app.diagnosis.effects.effect import Place
 from app.diagnosis.models.dynamic.hypothesis import Hypothesis
 from app.diagnosis.models.dynamic.state import State
 from app.diagnosis.result import Parameter
+from app.diagnosis.thresholds.readings import TILTED
 from app.kinematics import RobotModel
 from app.kinematics.robot import GRAVITY
+from app.units import DEG_PER_RAD
 
 TILT = 1.0  # m/s^2: nominal size of the part across, 6 degrees
+_WHERE = {"body": "base", "driver": "gravity_torque"}
 _NAMES = ("gx", "gy", "gz")
 _FIXED = ("fixed_gx", "fixed_gy", "fixed_gz")
 
@@ -39,7 +43,7 @@ class GravityDirection(Law):
         g = situation.hypothesis.gravity
         if not np.any(g):  # recorded without gravity: nothing points anywhere
             return []
-        return [Place({"body": "base", "driver": self.driver}, dict(zip(_FIXED, map(float, g), strict=True)))]
+        return [Place(dict(_WHERE), dict(zip(_FIXED, map(float, g), strict=True)))]
 
     def columns(self, columns: State, place: Place) -> Torques:
         return everywhere(columns.gravity_columns @ _across(place.fixed).T)
@@ -50,6 +54,37 @@ class GravityDirection(Law):
     def saved(self, place: Place, values: np.ndarray) -> dict[str, float]:
         g = _leaning(place.fixed, values)
         return dict(zip(_NAMES, map(float, g), strict=True))
+
+    def readings(self, now: Hypothesis, read: Read) -> Iterable[Trial]:
+        """Gravity by three numbers (it is linear), its size as it is everywhere."""
+        if not np.any(now.gravity):
+            return
+        samples = read.samples
+        beyond, gram, right = samples.y - samples.description, np.zeros((3, 3)), np.zeros(3)
+        weight = samples.alive / np.maximum(np.std(samples.y, axis=0), 1e-9) ** 2
+        for j in range(now.joints):
+            columns = read.off(j, samples.state.gravity_columns[:, j])
+            gram += weight[j] * columns.T @ columns
+            right += weight[j] * columns.T @ beyond[:, j]
+        g = now.gravity + np.linalg.solve(gram + 1e-9 * np.trace(gram) * np.eye(3), right)
+        size = float(np.linalg.norm(g))
+        if size < 1.0:
+            return
+        leaning = replace(now, gravity=g * float(np.linalg.norm(GRAVITY)) / size)
+        if leaning.tilt * DEG_PER_RAD > TILTED:
+            fixed: dict[str, float] = dict(zip(_FIXED, map(float, leaning.gravity), strict=True))
+            yield Trial(self, Place(dict(_WHERE), fixed), leaning)
+
+    def read_as(self, hypothesis: Hypothesis, where: Where, parameters: Values) -> Hypothesis:
+        return replace(hypothesis, gravity=_vector(parameters))
+
+    def between(self, now: Hypothesis, before: Hypothesis) -> Iterable[tuple[Where, Values]]:
+        if np.any(now.gravity) and not np.allclose(now.gravity, before.gravity):
+            yield dict(_WHERE), dict(zip(_NAMES, map(float, now.gravity), strict=True))
+
+    def held(self, hypothesis: Hypothesis, place: Place) -> np.ndarray:
+        tilt = min(hypothesis.tilt, np.pi / 2)
+        return np.array([float(np.linalg.norm(hypothesis.gravity)) * np.sin(tilt), 0.0])
 
     def torque(self, state: State, where: Where, parameters: Values) -> Torques:
         return everywhere(state.gravity_columns @ (_vector(parameters) - GRAVITY))

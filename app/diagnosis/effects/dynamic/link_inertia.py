@@ -12,6 +12,7 @@ from app.diagnosis.effects.dynamic._law import Law, Torques, Values, Where
 from app.diagnosis.effects.effect import Place
 from app.diagnosis.models.dynamic.state import State
 from app.diagnosis.result import Parameter
+from app.diagnosis.thresholds.naming_logs import TRUST as BEYOND
 from app.kinematics import RobotModel
 from app.kinematics.dynamics import PER_LINK
 
@@ -33,6 +34,8 @@ class LinkInertia(Law):
     added = "payload"
     whole = True
     sure = True
+    stated = True
+    one_place = True
     spread = (1.0, 4.0, 25.0, 400.0, 1e4)
 
     def places(self, situation: State) -> Iterable[Place]:
@@ -50,6 +53,9 @@ class LinkInertia(Law):
 
     def described(self, robot: RobotModel, where: Where, parameters: Values) -> tuple[Masses, ...]:
         return (Masses(int(where["link"]), np.array([parameters.get(name, 0.0) for name in INERTIAL])),)
+
+    def beyond_trust(self, weights: np.ndarray) -> bool:
+        return bool(np.sqrt(np.mean(weights[:4] ** 2)) > BEYOND)  # mass and first moment
 
     def sentence(self, place: Place, parameters: tuple[Parameter, ...]) -> str:
         values = {p.name: p.value for p in parameters}

@@ -22,6 +22,7 @@ class LoadFriction(JointLaw):
     follows_load = True
     linear = ("load",)
     positive = ("load",)
+    drifts = True
 
     def column(self, state: State, joint: int, fixed: Values) -> np.ndarray:
         return (np.abs(state.torque[:, joint]) * direction(state, joint, fixed))[:, None]

@@ -19,6 +19,8 @@ class Payload(Load):
     key = "payload"
     title = "a load"
     family = "load"
+    likely = True
+    apart = True
     equation = "tau = tau of a mass at its centre in the frame of the flange, or of the link it is fixed to"
 
     def places(self, situation: State) -> Iterable[Place]:

@@ -19,7 +19,7 @@ class PayloadChange(Load):
     family = "events"
     driver = "time"
     equation = "tau = (t > from_s) * tau of a mass at its centre in the flange frame"
-    windowed = True
+    ends = ("from_s",)
     lasting = False
 
     def places(self, situation: State) -> Iterable[Place]:

@@ -20,6 +20,7 @@ class QuadraticFriction(JointLaw):
     linear = ("quadratic",)
     in_joint: ClassVar = {"quadratic": "damping2"}
     positive = ("quadratic",)
+    drifts = True
 
     def column(self, state: State, joint: int, fixed: Values) -> np.ndarray:
         return (state.qd[:, joint] * np.abs(state.qd[:, joint]))[:, None]

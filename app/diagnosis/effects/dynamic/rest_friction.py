@@ -32,6 +32,7 @@ class RestFriction(Law):
     linear = ("level",)
     whole = True
     lasting = False
+    standstill = True
     finding = False
 
     def places(self, situation: State) -> Iterable[Place]:

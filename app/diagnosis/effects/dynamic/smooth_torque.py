@@ -54,6 +54,9 @@ class SmoothTorque(Law):
         joint = int(place.where["joint"]) - 1
         return np.full(KNOTS, 0.1 * situation.size[joint])
 
+    def lasts(self, where: Where) -> bool:
+        return super().lasts(where) and where.get("driver") != "time"
+
     def torque(self, state: State, where: Where, parameters: Values) -> Torques:
         values = np.array([parameters[k] for k in self.linear])
         return {j: c @ values for j, c in self.columns(state, Place(where, dict(parameters))).items()}

@@ -24,6 +24,7 @@ class StribeckFriction(JointLaw):
     blunt = True
     linear = ("stribeck",)
     positive = ("stribeck",)
+    drifts = True
     within = "coulomb_friction"
     bent: ClassVar = {"stribeck_speed": 0.7}  # nepers to either side within which the fit may bend it
 

@@ -10,11 +10,13 @@ import numpy as np
 
 from app.diagnosis.effects.described import Gain
 from app.diagnosis.effects.dynamic._law import JointLaw, Torques, Values, Where
+from app.diagnosis.effects.dynamic._reading import Read, Trial
 from app.diagnosis.effects.effect import Place
 from app.diagnosis.models.dynamic.hypothesis import Hypothesis
 from app.diagnosis.models.dynamic.state import State
 from app.diagnosis.result import Parameter
-from app.diagnosis.thresholds.evidence import GAIN_SPREAD
+from app.diagnosis.thresholds.evidence import GAIN_SPREAD, SAME_DRIVE
+from app.diagnosis.thresholds.readings import FACTOR
 from app.kinematics import RobotModel
 
 NOMINAL = 0.3  # drive gains of a maker differ by some percent; one that was taken for another by tens
@@ -40,6 +42,8 @@ class TorqueConstant(JointLaw):
     undone = True
     gain = True
     whole = True
+    between_logs = SAME_DRIVE
+    apart = True
     sure = True
     spread = ((GAIN_SPREAD / NOMINAL) ** 2,)  # of all drives at once, as they are made
     beside = "link_inertia"  # masses are less sure than drives
@@ -70,10 +74,40 @@ class TorqueConstant(JointLaw):
         return {"scale": (1.0 + place.fixed.get("fixed_scale", 0.0)) * (1.0 + float(values[0])) - 1.0}
 
     def undo(self, hypothesis: Hypothesis, place: Place, values: np.ndarray) -> Hypothesis:
-        factor = hypothesis.factors
-        joints = [int(place.where["joint"]) - 1] if "joint" in place.where else list(range(hypothesis.joints))
-        factor[joints] *= 1.0 + float(values[0])
-        return replace(hypothesis, factor=tuple(map(float, factor)))
+        return _scaled(hypothesis, place.where, float(values[0]))
+
+    def readings(self, now: Hypothesis, read: Read) -> Iterable[Trial]:
+        """One factor of all torques, and one of each joint."""
+        samples = read.samples
+        both = np.zeros((2, now.joints))
+        weight = 1.0 / np.maximum(np.std(samples.y, axis=0), 1e-9) ** 2
+        for j in range(now.joints):
+            rigid = read.off(j, samples.description[:, j])
+            both[:, j] = rigid @ samples.y[:, j], rigid @ rigid
+        both, weight = both * samples.alive, weight * samples.alive
+        each = both[0] / np.maximum(both[1], 1e-300)
+        one = float((both[0] * weight).sum() / max(float((both[1] * weight).sum()), 1e-300))
+        if one > 0 and abs(np.log(one)) > np.log(FACTOR):
+            factor = tuple(map(float, now.factors * one))
+            yield Trial(self, Place({}, {"fixed_scale": factor[0] - 1.0}), replace(now, factor=factor))
+        each[~samples.alive] = 1.0
+        if np.all(each > 0) and np.max(np.abs(np.log(each))) > np.log(FACTOR):
+            factor = tuple(map(float, now.factors * each))
+            yield Trial(self, Place({}, {"fixed_scale": 0.0}), replace(now, factor=factor), each=True)
+
+    def read_as(self, hypothesis: Hypothesis, where: Where, parameters: Values) -> Hypothesis:
+        return _scaled(hypothesis, where, parameters["scale"])
+
+    def between(self, now: Hypothesis, before: Hypothesis) -> Iterable[tuple[Where, Values]]:
+        scale = now.factors / before.factors - 1.0
+        if now.joints > 1 and np.allclose(scale, scale[0], rtol=1e-9) and scale[0]:
+            yield {}, {"scale": float(scale[0])}
+            return
+        for j in np.flatnonzero(scale):
+            yield {"joint": int(j) + 1}, {"scale": float(scale[j])}
+
+    def held(self, hypothesis: Hypothesis, place: Place) -> np.ndarray:
+        return np.array([hypothesis.factors[int(place.where.get("joint", 1)) - 1] - 1.0])
 
     def torque(self, state: State, where: Where, parameters: Values) -> Torques:
         return {j: parameters["scale"] * c[:, 0] for j, c in self.columns(state, Place(where)).items()}
@@ -103,6 +137,13 @@ class TorqueConstant(JointLaw):
             f"The torques are {factor:.4g} ± {std:.1g} times the description's in every joint: "
             f"torque factor or masses, this log cannot tell which.{current}"
         )
+
+
+def _scaled(hypothesis: Hypothesis, where: Where, scale: float) -> Hypothesis:
+    """The hypothesis with the factor of a joint, or of all, 1 + scale times as large."""
+    factor = hypothesis.factors
+    factor[[int(where["joint"]) - 1] if "joint" in where else slice(None)] *= 1.0 + scale
+    return replace(hypothesis, factor=tuple(map(float, factor)))
 
 
 EFFECT = TorqueConstant()

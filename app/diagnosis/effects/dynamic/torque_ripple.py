@@ -23,6 +23,7 @@ class TorqueRipple(JointLaw):
     equation = "tau = sine * sin(order * q) + cosine * cos(order * q)"
     units: ClassVar = {"sine": "Nm", "cosine": "Nm", "order": "1/turn"}
     linear = ("sine", "cosine")
+    series = True
     bent: ClassVar = {"order": 0.02}
 
     def forms(self, state: State, joint: int) -> list[tuple[Values, float]]:

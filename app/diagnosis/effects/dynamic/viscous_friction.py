@@ -21,6 +21,7 @@ class ViscousFriction(JointLaw):
     in_joint: ClassVar = {"viscous": "damping"}
     servo_alike = ("delay",)  # a command followed late by d leaves stiffness times d times the speed
     positive = ("viscous",)
+    drifts = True
     whole = True
 
     def column(self, state: State, joint: int, fixed: Values) -> np.ndarray:

@@ -4,14 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import replace
+from itertools import combinations
 
 import numpy as np
 
 from app.diagnosis.effects.dynamic._law import Law, Torques, Values, Where
+from app.diagnosis.effects.dynamic._reading import Read, Trial
 from app.diagnosis.effects.effect import Place
 from app.diagnosis.models.dynamic.hypothesis import Hypothesis
 from app.diagnosis.models.dynamic.state import State
 from app.diagnosis.result import Parameter
+from app.units import DEG_PER_RAD
 
 #: Kinds, as saved in `fixed_kind`.
 (
@@ -25,6 +28,11 @@ from app.diagnosis.result import Parameter
     NO_GRAVITY,
     ALL_SENSES,
 ) = range(9)
+_NAMES = {
+    TORQUE_SENSE: "torque_sense", TORQUE_ORDER: "torque_order", PLACE_SENSE: "joint_sense", PLACE_ORDER: "joint_order",
+    BOTH_ORDER: "joints_swapped", PLACE_UNIT: "angle_unit", CLOCK: "clock", NO_GRAVITY: "no_gravity",
+    ALL_SENSES: "torque_senses",
+}  # fmt: skip
 _SAID = {
     TORQUE_SENSE: "the torque of joint {joint} is counted the other way round",
     TORQUE_ORDER: "the torques of joints {joint} and {other} are changed over",
@@ -46,6 +54,7 @@ class WrongConvention(Law):
     family = "conventions"
     equation = "q_true = -q, or joints, units or directions changed over"
     undone = True
+    whole_log = True
 
     def places(self, situation: State) -> Iterable[Place]:
         return []
@@ -56,8 +65,38 @@ class WrongConvention(Law):
     def torque(self, state: State, where: Where, parameters: Values) -> Torques:
         return {}
 
+    def readings(self, now: Hypothesis, read: Read) -> Iterable[Trial]:
+        n = now.joints
+
+        def convention(kind: int, **where: float) -> Trial:
+            fixed = {"fixed_kind": float(kind), **{f"fixed_{k}": float(v) for k, v in where.items()}}
+            said = {"joint": int(where["joint"])} if "joint" in where else {}
+            if "other" in where:
+                said["source_joint"] = int(where["other"])
+            return Trial(self, Place({**said, "kind": _NAMES[kind]}, fixed), _read(now, fixed))
+
+        for j in range(1, n + 1):
+            yield convention(TORQUE_SENSE, joint=j)
+            yield convention(PLACE_SENSE, joint=j)
+        for a, b in combinations(range(1, n + 1), 2):
+            for kind in (TORQUE_ORDER, PLACE_ORDER, BOTH_ORDER):
+                yield convention(kind, joint=a, other=b)
+        if n > 1:
+            yield convention(ALL_SENSES)
+        for value in (DEG_PER_RAD, 1.0 / DEG_PER_RAD):
+            yield convention(PLACE_UNIT, value=value)
+            for j in range(1, n + 1):
+                yield convention(PLACE_UNIT, joint=j, value=value)
+        for value in (0.5, 2.0):
+            yield convention(CLOCK, value=value)
+        if np.any(now.gravity):
+            yield convention(NO_GRAVITY)
+
+    def read_as(self, hypothesis: Hypothesis, where: Where, parameters: Values) -> Hypothesis:
+        return _read(hypothesis, parameters)
+
     def undo(self, hypothesis: Hypothesis, place: Place, values: np.ndarray) -> Hypothesis:
-        return read(hypothesis, place.fixed)
+        return _read(hypothesis, place.fixed)
 
     def reported(self, place: Place, values: np.ndarray, covariance: np.ndarray) -> tuple[Parameter, ...]:
         """The factor of a unit or a clock; the other kinds have no number."""
@@ -78,7 +117,7 @@ class WrongConvention(Law):
         return f"The log is written down in another convention: {said}."
 
 
-def read(hypothesis: Hypothesis, fixed: Values) -> Hypothesis:
+def _read(hypothesis: Hypothesis, fixed: Values) -> Hypothesis:
     """The hypothesis with one convention more undone; fixed values as saved, joints from 1."""
     n, kind = hypothesis.joints, int(fixed["fixed_kind"])
     joint, other = (int(fixed.get(k, 1)) - 1 for k in ("fixed_joint", "fixed_other"))

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from app.diagnosis.models.dynamic.library import laws
 from app.diagnosis.observations.joint_log import Log
 from app.diagnosis.result import Finding, Parameter
 from app.diagnosis.thresholds.commands import FALLS, LATEST, LEAST, SURE
@@ -46,12 +47,14 @@ def lags(log: Log) -> list[Lag]:
 
 
 def lag_findings(log: Log, sliding: np.ndarray) -> tuple[Finding, ...]:
-    """As findings: `delay` of a joint against its command."""
+    """As findings: the lateness of a joint against its command."""
+    law = next(law for law in laws().values() if law.follows_commands)
+    (name,) = law.linear
     return tuple(
         Finding(
-            effect="delay",
-            where={"joint": lag.joint + 1, "driver": "time"},
-            parameters=(Parameter("delay", lag.seconds, lag.std, "s"),),
+            effect=law.key,
+            where={"joint": lag.joint + 1, "driver": law.driver},
+            parameters=(Parameter(name, lag.seconds, lag.std, law.units[name]),),
             visible=1.0,
             p_value=lag.p_value,
             heldout_rms_without=lag.without,

@@ -101,7 +101,7 @@ def group_of(candidate: Candidate, columns: np.ndarray) -> Group:
     """A law at a place as a group of its own."""
     law, place = candidate.law, candidate.place
     joint = place.where.get("joint", place.where.get("link", ""))
-    exclusive = f"{law.key} {joint}" if law.bent and law.key != "torque_ripple" else ""
+    exclusive = f"{law.key} {joint}" if law.bent and not law.series else ""
     if law.contains or any(other.contains == law.key for other in laws().values()):
         exclusive = f"{law.contains or law.key} {joint}"
     widths = LAW_WIDTHS[:1] if law.certain else LAW_WIDTHS

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
-from app.diagnosis.effects.dynamic import wrong_convention
 from app.diagnosis.model import ModelEffect, SavedModel
 from app.diagnosis.models.dynamic.hypothesis import Hypothesis, as_given
 from app.diagnosis.models.dynamic.library import laws
@@ -17,9 +16,6 @@ from app.diagnosis.models.dynamic.smoothing import Motion
 from app.diagnosis.models.dynamic.state import State
 from app.diagnosis.observations.joint_log import Log
 from app.kinematics import RobotModel
-
-#: Laws that are part of how the log is read.
-_READ = ("gravity_direction", "delay", "torque_constant", "wrong_convention")
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,7 +47,7 @@ def beside(samples: Samples, effects: Sequence[ModelEffect]) -> Predicted:
     for carried in (True, False):
         for k, effect in enumerate(effects):
             law = known.get(effect.effect)
-            if law is None or effect.effect in _READ or law.carried is not carried:
+            if law is None or law.undone or law.carried is not carried:
                 continue
             added = _torque(state, effect, total.shape)
             parts.append((k, added))
@@ -70,20 +66,10 @@ def _torque(state: State, effect: ModelEffect, shape: tuple[int, ...]) -> np.nda
 
 def hypothesis_of(effects: Sequence[ModelEffect], joints: int) -> Hypothesis:
     """How a log is read that was recorded as the one the model was learnt from."""
-    out = as_given(joints)
+    out, known = as_given(joints), laws()
     for effect in effects:
-        values = effect.parameters
-        if effect.effect == "wrong_convention":
-            out = wrong_convention.read(out, values)
-        elif effect.effect == "gravity_direction":
-            out = replace(out, gravity=np.array([values[k] for k in ("gx", "gy", "gz")]))
-        elif effect.effect == "delay" and "joint" not in effect.where:
-            out = replace(out, delay=out.delay + values["delay"])
-        elif effect.effect == "torque_constant":
-            factor = out.factors
-            which = [int(effect.where["joint"]) - 1] if "joint" in effect.where else slice(None)
-            factor[which] *= 1.0 + values["scale"]
-            out = replace(out, factor=tuple(map(float, factor)))
+        if effect.effect in known:
+            out = known[effect.effect].read_as(out, effect.where, effect.parameters)
     return out
 
 
@@ -97,8 +83,7 @@ def holding(model: SavedModel, rows: str) -> tuple[ModelEffect, ...]:
 def lasting(effect: ModelEffect) -> bool:
     """False for what happened once, in its own log."""
     law = laws().get(effect.effect)
-    own_time = effect.effect == "smooth_torque" and effect.where.get("driver") == "time"
-    return not own_time and (law is None or law.lasting) and "from_s" not in effect.where
+    return "from_s" not in effect.where if law is None else law.lasts(effect.where)
 
 
 def fingerprint(log: Log) -> str:
