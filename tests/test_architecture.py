@@ -195,38 +195,27 @@ def test_no_file_is_longer_than_one_idea():
     assert not long, long
 
 
-#: Words that are an effect's key and something else as well: a family of the budget, a column of recordings, a number
-#: that a model holds.
-ALSO = {"unnamed", "payload", "delay", "contact"}
-#: Files of the engine of joint logs that still ask for an effect by its key where a capability would do. None joins.
-BY_NAME = {
-    "dynamic/budget.py",
-    "dynamic/conventions.py",
-    "dynamic/diagnose.py",
-    "dynamic/events.py",
-    "dynamic/findings.py",
-    "dynamic/fitting.py",
-    "dynamic/names.py",
-    "dynamic/next_motion.py",
-    "dynamic/ready.py",
-    "dynamic/reference.py",
-    "dynamic/saving.py",
-    "dynamic/sharpness.py",
-    "models/dynamic/library.py",
-    "models/dynamic/saved.py",
+#: Where a word that is an effect's key stands for something else: file below app/diagnosis, word -> what it is there.
+OTHERWISE = {
+    ("result.py", "unnamed"): "a family of the error budget",
+    ("observations/pose_data.py", "payload"): "an array with one value a row",
+    ("observations/pose_reading.py", "payload"): "a column of a recording",
+    ("export/targets/_words.py", "delay"): "a word of the remark at the top of a file",
+    ("export/targets/mjcf.py", "delay"): "an attribute of MuJoCo's motor",
 }
+DIAGNOSIS = APP / "diagnosis"
+EFFECTS = DIAGNOSIS / "effects"
 
 
-def _keys(kind):
-    from app import catalog
+def _keys():
+    from app.diagnosis import effects
 
-    return set(catalog.members(f"app.diagnosis.effects.{kind}", "EFFECT")) - ALSO
+    return {key for kind in effects.FOLDERS for key in effects.of_kind(kind)}
 
 
-def _named_in(path, keys):
-    """Effects whose key stands as a text in a file, docstrings not counted."""
-    tree = parsed(path)
-    said = {
+def _said_in(tree, keys):
+    """Effects whose key stands as a text in a syntax tree, docstrings not counted."""
+    docstrings = {
         id(node.body[0].value)
         for node in ast.walk(tree)
         if isinstance(node, ast.Module | ast.ClassDef | ast.FunctionDef)
@@ -239,23 +228,33 @@ def _named_in(path, keys):
         if isinstance(node, ast.Constant)
         and isinstance(node.value, str)
         and node.value in keys
-        and id(node) not in said
+        and id(node) not in docstrings
     }
 
 
-def test_the_engine_of_poses_knows_no_effect_by_name():
-    keys = _keys("kinematic")
-    engine = ("kinematic", "models/kinematic", "observations", "regression", "selection", "thresholds")
-    files = [p for folder in engine for p in sorted((APP / "diagnosis" / folder).rglob("*.py"))]
-    assert not {p.name: named for p in files if (named := _named_in(p, keys))}
-    for path in (APP / "diagnosis" / "effects" / "kinematic").glob("*.py"):
-        assert _named_in(path, keys) <= {path.stem}, path
+def _effect_modules(path, keys):
+    """Files of single effects that a file imports; what effects have in common begins with an underscore."""
+    return {
+        module
+        for module in _imports(path)
+        if module.startswith("app.diagnosis.effects.") and set(module.split(".")[4:]) & keys
+    }
 
 
-def test_no_further_file_of_joint_logs_knows_an_effect_by_name():
-    keys = _keys("dynamic")
-    files = [
-        p for folder in ("dynamic", "models/dynamic") for p in (APP / "diagnosis" / folder).rglob("*.py")
-    ]
-    named = {p.relative_to(APP / "diagnosis").as_posix() for p in files if _named_in(p, keys)}
-    assert named <= BY_NAME, named - BY_NAME
+def test_no_effect_is_known_by_name_outside_its_own_file():
+    keys = _keys()
+    files = [p for p in DIAGNOSIS.rglob("*.py") if EFFECTS not in p.parents]
+    said = {(p.relative_to(DIAGNOSIS).as_posix(), key) for p in files for key in _said_in(parsed(p), keys)}
+    assert said == set(OTHERWISE)  # an exception that is none any longer goes, too
+    assert not {p.name: found for p in files if (found := _effect_modules(p, keys))}
+
+
+def test_effects_on_poses_do_not_know_each_other():
+    keys = _keys()
+    for path in (EFFECTS / "kinematic").glob("*.py"):
+        assert _said_in(parsed(path), keys) - {"unnamed"} <= {path.stem}, path  # a family of the budget
+
+
+def test_a_key_that_is_planted_is_seen():
+    planted = 'def asks(law):\n    "payload"\n    return law.key in ("joint_zero", "friction")'
+    assert _said_in(ast.parse(planted), _keys()) == {"joint_zero"}

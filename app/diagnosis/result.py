@@ -120,14 +120,16 @@ class FamilyShare:
     members: tuple[int, ...] = ()
 
 
+#: Family of what has no name, the last line of every error budget.
+UNNAMED = "unnamed"
 #: Families of the error budget, in their order.
 STATIC_FAMILIES = (
     "conventions", "zeros", "geometry", "elasticity", "gears", "play", "couplings", "load", "instrument", "events",
-    "unnamed",
+    UNNAMED,
 )  # fmt: skip
 MOTION_FAMILIES = (
     "conventions", "mounting", "inertials", "friction", "rotors", "load", "drive", "timing", "couplings", "events",
-    "unnamed",
+    UNNAMED,
 )  # fmt: skip
 
 

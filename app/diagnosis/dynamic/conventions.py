@@ -13,8 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from app.diagnosis.dynamic.masses import masses_do_worse
-from app.diagnosis.effects.dynamic._reading import Trial
-from app.diagnosis.models.dynamic.hypothesis import Hypothesis, as_given
+from app.diagnosis.models.dynamic.hypothesis import Hypothesis, Trial, as_given
 from app.diagnosis.models.dynamic.library import laws
 from app.diagnosis.models.dynamic.samples import Samples, Taker
 from app.diagnosis.models.dynamic.smoothing import Motion

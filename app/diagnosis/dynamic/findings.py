@@ -23,6 +23,7 @@ from app.diagnosis.models.dynamic.library import laws
 from app.diagnosis.models.dynamic.repeats import noise_of_repeats
 from app.diagnosis.models.dynamic.saved import Predicted, beside, hypothesis_of
 from app.diagnosis.result import (
+    UNNAMED,
     Alternative,
     Diagnosis,
     FamilyShare,
@@ -87,7 +88,7 @@ def build(fitted: Fitted, file: str, *, reference: Fitted | None = None) -> Diag
     )
     poses, advice = next_motion(fitted, named) if findings else ((), ())
     families = _with_members(families, findings)
-    unnamed = sum(m.share for m in found if m.candidate.law.family == "unnamed")
+    unnamed = sum(m.share for m in found if m.candidate.law.family == UNNAMED)
     left = fitted.left
     shaped = [j for j, count in waves(study).items() if count > RIPPLES]
     withheld = [m for m in found if m.gain >= NAME and m.share >= SHARE and not m.named and m.asks_for_a_name]

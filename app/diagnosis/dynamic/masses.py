@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from app.diagnosis.effects.dynamic._law import Law
-from app.diagnosis.effects.dynamic._reading import Read
+from app.diagnosis.models.dynamic.hypothesis import Read
 from app.diagnosis.models.dynamic.library import laws
 from app.diagnosis.thresholds.readings import COST, TOGETHER
 from app.kinematics.dynamics import PER_LINK

@@ -10,6 +10,7 @@ from scipy.special import chdtrc
 from app.diagnosis.dynamic.solution import Solution
 from app.diagnosis.dynamic.study import Study
 from app.diagnosis.models.dynamic.library import Candidate, laws
+from app.diagnosis.result import UNNAMED
 from app.diagnosis.thresholds.naming import MEMBER_WALD, MEMBER_WALD_PARAMETER, RIVAL
 from app.diagnosis.thresholds.naming_logs import CURVE, NAME, RIPPLES, SHARE, STANDS_OUT
 
@@ -98,7 +99,7 @@ def members(
         if candidate.law.series:
             named = named and ripples[candidate.place.where["joint"]] <= RIPPLES
         named = named and (candidate.law.key, candidate.place.where.get("joint")) not in contained
-        named = named and candidate.law.family != "unnamed" and candidate.law.beyond_trust(weights)
+        named = named and candidate.law.family != UNNAMED and candidate.law.beyond_trust(weights)
         if study.label(g).whole:
             needed = MEMBER_WALD + MEMBER_WALD_PARAMETER * (len(columns) - 1)
             named = named and statistic > needed
@@ -137,7 +138,7 @@ def _shaped(study: Study, member: Member, found: list[Member]) -> bool:
     driver = member.candidate.place.where.get("driver", member.candidate.law.driver)
     curves = [
         m for m in found
-        if m.candidate.law.family == "unnamed" and m.candidate.place.where.get("joint") == joint
+        if m.candidate.law.family == UNNAMED and m.candidate.place.where.get("joint") == joint
         and m.candidate.place.where["driver"] == driver
     ]  # fmt: skip
     return any(m.share > CURVE * member.share for m in curves)
@@ -214,7 +215,7 @@ def rivals(study: Study, member: Member) -> tuple[tuple[Candidate, float], ...]:
         short = own_gain - float(gain)
         key = (other.law.key, tuple(sorted(other.place.where.items())))
         same = other.law is member.candidate.law and other.place.where == member.candidate.place.where
-        if k != g and not same and short < RIVAL and other.law.family != "unnamed" and key not in found:
+        if k != g and not same and short < RIVAL and other.law.family != UNNAMED and key not in found:
             found[key] = (other, max(short, 0.0))
     return tuple(sorted(found.values(), key=lambda pair: pair[1]))[:6]
 

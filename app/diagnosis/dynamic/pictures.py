@@ -9,7 +9,7 @@ from app.diagnosis.model import ModelEffect
 from app.diagnosis.models.dynamic.hypothesis import as_given
 from app.diagnosis.models.dynamic.library import laws
 from app.diagnosis.models.dynamic.saved import Predicted
-from app.diagnosis.result import Evidence
+from app.diagnosis.result import UNNAMED, Evidence
 
 
 def evidence_of(
@@ -31,7 +31,7 @@ def evidence_of(
     explained = before - whole.residual - sum(parts.values(), np.zeros_like(before))
     if np.abs(explained).max() > 1e-9:  # how the log is read: mounting, factors, delay, conventions
         read = [laws()[e.effect].family for e in effects if laws()[e.effect].undone]
-        first = read[0] if read else "unnamed"
+        first = read[0] if read else UNNAMED
         parts[first] = parts.get(first, np.zeros_like(before)) + explained
     centre = fitted.study.samples.centre
     return Evidence(

@@ -20,12 +20,12 @@ from app.diagnosis.dynamic.labels import label
 from app.diagnosis.dynamic.names import Member
 from app.diagnosis.dynamic.solution import solve
 from app.diagnosis.dynamic.study import Study
-from app.diagnosis.effects.dynamic._friction import WIDTH
-from app.diagnosis.effects.dynamic._law import Law, Torques
+from app.diagnosis.effects.dynamic._law import WIDTH, Law, Torques
 from app.diagnosis.effects.effect import Place, Quantity
 from app.diagnosis.model import ModelEffect
 from app.diagnosis.models.dynamic.library import Candidate, nominal
 from app.diagnosis.models.dynamic.state import State
+from app.diagnosis.result import UNNAMED
 from app.diagnosis.thresholds.evidence import DRIFT
 from app.diagnosis.thresholds.naming import MEMBER_WALD, MEMBER_WALD_PARAMETER
 
@@ -47,7 +47,7 @@ class KnownBefore(Law):
     key = KEY
     title = "values learnt on another log"
     equation = "tau = X (mean + L w)"
-    family = "unnamed"
+    family = UNNAMED
     follows_load = True
     certain = True
 
@@ -125,7 +125,7 @@ def known_from(fitted: Fitted, drift: float = DRIFT) -> KnownBefore:
 
 def _tells(candidate: Candidate) -> bool:
     """True for what another log of the arm has too: no event, no rest, no course of time without a name."""
-    named_time = candidate.law.family == "unnamed" and candidate.place.where.get("driver") == "time"
+    named_time = candidate.law.family == UNNAMED and candidate.place.where.get("driver") == "time"
     return candidate.law.lasting and not candidate.law.windowed and not named_time
 
 

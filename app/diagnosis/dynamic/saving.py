@@ -6,7 +6,7 @@ import numpy as np
 
 from app.diagnosis.dynamic.fitting import Fitted
 from app.diagnosis.dynamic.names import Member
-from app.diagnosis.effects.dynamic._friction import WIDTH
+from app.diagnosis.effects.dynamic._law import WIDTH
 from app.diagnosis.model import ModelEffect, Taught
 from app.diagnosis.models.dynamic.library import laws
 from app.diagnosis.models.dynamic.saved import fingerprint, hypothesis_of

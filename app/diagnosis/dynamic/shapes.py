@@ -15,6 +15,7 @@ from app.diagnosis.dynamic.study import Study
 from app.diagnosis.effects.dynamic._law import Law, Torques
 from app.diagnosis.effects.effect import Place, Quantity
 from app.diagnosis.models.dynamic.state import State
+from app.diagnosis.result import UNNAMED
 
 STEP = 1e-3  # relative, of the difference quotient
 
@@ -25,7 +26,7 @@ class Tangent(Law):
     key = "tangent"
     title = "slope of a law by a shape value"
     equation = "tau = d tau / d ln(shape)"
-    family = "unnamed"
+    family = UNNAMED
 
     def __init__(self, law: Law, place: Place, name: str, values: np.ndarray):
         self.law, self.place, self.name, self.values = law, place, name, values

@@ -9,7 +9,7 @@ from app.diagnosis.kinematic.description import Description
 from app.diagnosis.models.kinematic.saved import reach_of
 from app.diagnosis.models.kinematic.terms import Term
 from app.diagnosis.regression.heldout import folds_of, heldout_residuals
-from app.diagnosis.result import STATIC_FAMILIES, FamilyShare, Finding
+from app.diagnosis.result import STATIC_FAMILIES, UNNAMED, FamilyShare, Finding
 from app.units import mm
 
 #: Of its nominal size: below, a part of a law is nothing.
@@ -44,7 +44,7 @@ def shared_terms(found: Description, spoken: frozenset[tuple] = frozenset()) -> 
             own = _holds(candidate.place, ranges)
         everywhere = weights[columns] + sum(w[columns] for w in without.values())
         parts = [(family, everywhere, own)]
-        parts += [("unnamed", taken[columns], reach) for reach, taken in back]
+        parts += [(UNNAMED, taken[columns], reach) for reach, taken in back]
         parts += [(family, -w[columns], reach_of(ranges, j)) for j, w in without.items()]
         for counted, values, reach in parts:
             if np.abs(values).max(initial=0.0) > _NONE:

@@ -34,7 +34,7 @@ from app.diagnosis.models.kinematic.terms import Term
 from app.diagnosis.observations.noise import known_noise, noise_of
 from app.diagnosis.observations.pose_data import StaticRecording
 from app.diagnosis.observations.pose_reading import read_static
-from app.diagnosis.result import Diagnosis, FamilyShare, Leftover, Progress, Verdict
+from app.diagnosis.result import UNNAMED, Diagnosis, FamilyShare, Leftover, Progress, Verdict
 from app.diagnosis.thresholds.rows import OUTLIER_WEIGHT
 from app.kinematics import RobotModel
 from app.recordings import Table
@@ -206,7 +206,7 @@ def _families(
             found, parts, said, family_of, after, undone_share, plain.heldout_rms, left.noise_ratio
         )
     )
-    unnamed = [f for f in out if f.family == "unnamed"]
+    unnamed = [f for f in out if f.family == UNNAMED]
     if left.structure and not unnamed and left.share > 0:
-        out.append(FamilyShare("unnamed", left.share, judgement.after_quality.heldout_rms))
+        out.append(FamilyShare(UNNAMED, left.share, judgement.after_quality.heldout_rms))
     return tuple(out)

@@ -15,7 +15,7 @@ from app.diagnosis.kinematic.findings import imitated
 from app.diagnosis.kinematic.judging import Judgement
 from app.diagnosis.models.kinematic.candidates import Candidate
 from app.diagnosis.observations.noise import residual_rms
-from app.diagnosis.result import Noise
+from app.diagnosis.result import UNNAMED, Noise
 from app.diagnosis.thresholds.naming import CANCELLING, UNNAMED_SHARE
 from app.diagnosis.thresholds.noise import EXCESS_SIGMA, HEAVY_TAILS, HOPELESS
 from app.diagnosis.thresholds.rows import OUTLIER_SHARE
@@ -59,7 +59,7 @@ def left_over(
     where, strongest = {}, 0.0
     whole = found.calibrated or found
     taken = budget.shares(whole, budget.shared_terms(whole), 1.0)
-    share = taken.get("unnamed", 0.0)
+    share = taken.get(UNNAMED, 0.0)
     cancelling = found.dense and sum(taken.values()) > CANCELLING
     if unnamed:
         score = found.evidence.score(found.selection)

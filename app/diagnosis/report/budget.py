@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from app.diagnosis.report.wording import digits, measure, probability
-from app.diagnosis.result import MOTION_FAMILIES, Diagnosis, Finding
+from app.diagnosis.result import MOTION_FAMILIES, UNNAMED, Diagnosis, Finding
 from app.diagnosis.wording import FALLBACK, WORDS
 
 #: A law that explains less of the mean square before than this is not listed by name but folded into its family.
@@ -26,7 +26,6 @@ CHANCE = 0.05
 #: Shares below this are said to be below it.
 LEAST_SHARE = 0.01
 #: The family of what was fitted without a name, as `result.STATIC_FAMILIES` and `MOTION_FAMILIES` call it.
-UNNAMED = "unnamed"
 
 
 @dataclass(frozen=True)

@@ -9,10 +9,8 @@ from typing import Any, ClassVar
 import numpy as np
 
 from app.diagnosis.effects.described import Change, InJoint
-from app.diagnosis.effects.dynamic._friction import WIDTH
-from app.diagnosis.effects.dynamic._reading import Read, Trial
 from app.diagnosis.effects.effect import Effect, Place, Quantity
-from app.diagnosis.models.dynamic.hypothesis import Hypothesis
+from app.diagnosis.models.dynamic.hypothesis import Hypothesis, Read, Trial
 from app.diagnosis.models.dynamic.state import State
 from app.diagnosis.result import Parameter
 from app.kinematics import RobotModel
@@ -24,6 +22,8 @@ Torques = dict[int, np.ndarray]
 
 #: Nominal size of a law on a joint: this share of the joint's root mean square torque.
 SHARE = 0.3
+#: How a saved law of dry friction keeps its sharpness [rad/s or m/s].
+WIDTH = "fixed_width"
 #: nats: a law is one decision among its kind; the choice of place and form is paid by `Place.cost`.
 PENALTY = 4.0
 
@@ -239,6 +239,11 @@ class JointLaw(Law):
     @abstractmethod
     def column(self, state: State, joint: int, fixed: Values) -> np.ndarray:
         """(M, d) on joint (from 0)."""
+
+
+def direction(state: State, joint: int, fixed: Values) -> np.ndarray:
+    """(M,) direction of dry friction between -1 and 1, of joint (from 0): sharp at rest, or over the saved speed."""
+    return state.direction(joint, fixed.get(WIDTH))
 
 
 def everywhere(values: np.ndarray) -> Torques:

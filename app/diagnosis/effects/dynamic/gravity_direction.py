@@ -10,9 +10,8 @@ import numpy as np
 
 from app.diagnosis.effects.described import Gravity
 from app.diagnosis.effects.dynamic._law import Law, Torques, Values, Where, everywhere
-from app.diagnosis.effects.dynamic._reading import Read, Trial
 from app.diagnosis.effects.effect import Place
-from app.diagnosis.models.dynamic.hypothesis import Hypothesis
+from app.diagnosis.models.dynamic.hypothesis import Hypothesis, Read, Trial
 from app.diagnosis.models.dynamic.state import State
 from app.diagnosis.result import Parameter
 from app.diagnosis.thresholds.readings import TILTED

@@ -8,8 +8,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from app.diagnosis.effects.dynamic._friction import WIDTH
-from app.diagnosis.effects.dynamic._law import SHARE, Law, Torques, Values, Where, choice
+from app.diagnosis.effects.dynamic._law import SHARE, WIDTH, Law, Torques, Values, Where, choice
 from app.diagnosis.effects.effect import Place, Quantity
 from app.diagnosis.models.dynamic.state import State
 from app.diagnosis.result import Parameter

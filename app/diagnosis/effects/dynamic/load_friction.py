@@ -6,8 +6,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from app.diagnosis.effects.dynamic._friction import direction
-from app.diagnosis.effects.dynamic._law import JointLaw, Values
+from app.diagnosis.effects.dynamic._law import JointLaw, Values, direction
 from app.diagnosis.models.dynamic.state import State
 
 

@@ -6,8 +6,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from app.diagnosis.effects.dynamic._friction import direction
-from app.diagnosis.effects.dynamic._law import JointLaw, Values, choice
+from app.diagnosis.effects.dynamic._law import JointLaw, Values, choice, direction
 from app.diagnosis.models.dynamic.state import State
 
 SHARES = (0.03, 0.06, 0.12, 0.25, 0.45)  # of the joint's usual speed: speeds at which it has faded, tried

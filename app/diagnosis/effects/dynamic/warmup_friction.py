@@ -7,8 +7,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from app.diagnosis.effects.dynamic._friction import direction
-from app.diagnosis.effects.dynamic._law import JointLaw, Torques, Values, Where, choice
+from app.diagnosis.effects.dynamic._law import JointLaw, Torques, Values, Where, choice, direction
 from app.diagnosis.effects.effect import Place
 from app.diagnosis.models.dynamic.state import State
 

@@ -9,9 +9,8 @@ from itertools import combinations
 import numpy as np
 
 from app.diagnosis.effects.dynamic._law import Law, Torques, Values, Where
-from app.diagnosis.effects.dynamic._reading import Read, Trial
 from app.diagnosis.effects.effect import Place
-from app.diagnosis.models.dynamic.hypothesis import Hypothesis
+from app.diagnosis.models.dynamic.hypothesis import Hypothesis, Read, Trial
 from app.diagnosis.models.dynamic.state import State
 from app.diagnosis.result import Parameter
 from app.units import DEG_PER_RAD

@@ -68,6 +68,11 @@ def of_joint(joint: SimJoint, number: int, field: str, why: str) -> Left | None:
     return Left(f"{words[field]} (joint {number})", f"{value:.6g} {units[field]}", why)
 
 
+def lateness(arm: SimArm, why: str) -> Left:
+    """What a target has no place for of how late the torques are."""
+    return Left("delay", f"{arm.delay:.4g} s", why)
+
+
 def lost(arm: SimArm, fields: Iterable[str], why: str) -> list[Left]:
     """All joints' quantities that a target has no place for."""
     found = (of_joint(j, k, f, why) for f in fields for k, j in enumerate(arm.joints, 1))

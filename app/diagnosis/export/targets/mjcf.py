@@ -12,7 +12,7 @@ import xml.etree.ElementTree as ET
 import numpy as np
 
 from app.diagnosis.export.arm import Left, SimArm, SimJoint, about_centre
-from app.diagnosis.export.targets._words import joint_names, named, remark, said
+from app.diagnosis.export.targets._words import joint_names, lateness, named, remark, said
 from app.geometry import quaternion_from_rotation
 
 #: Of the simulation [s].
@@ -50,7 +50,7 @@ class Mjcf:
         actuators = ET.SubElement(root, "actuator")
         late = max(arm.delay, 0.0)
         if arm.delay < 0.0:
-            left.append(Left("delay", f"{arm.delay:.4g} s", "torques ahead of their motion have no actuator"))
+            left.append(lateness(arm, "torques ahead of their motion have no actuator"))
         for name, joint in zip(names, arm.joints, strict=True):
             actuators.append(_motor(name, joint, late))
         root[0].text = "\n" + remark(arm, f"{self.title}, {self.version}", (*arm.left, *left)) + "\n"

@@ -5,7 +5,7 @@ from __future__ import annotations
 import xml.etree.ElementTree as ET
 
 from app.diagnosis.export.arm import Left, SimArm, SimJoint, about_centre
-from app.diagnosis.export.targets._words import joint_names, lost, named, remark, said
+from app.diagnosis.export.targets._words import joint_names, lateness, lost, named, remark, said
 from app.geometry import convention
 
 _VERSION = "1.11"
@@ -26,7 +26,7 @@ class Sdf:
             if j.offset and not j.stiffness
         ]
         if arm.delay:
-            left.append(Left("delay", f"{arm.delay:.4g} s", _NO_WORD))
+            left.append(lateness(arm, _NO_WORD))
         root = ET.Element("sdf", version=_VERSION)
         root.append(ET.Comment("\n" + remark(arm, f"{self.title} {self.version}", (*arm.left, *left)) + "\n"))
         world = ET.SubElement(root, "world", name="teachframe")

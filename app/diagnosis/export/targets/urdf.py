@@ -8,7 +8,7 @@ from __future__ import annotations
 import xml.etree.ElementTree as ET
 
 from app.diagnosis.export.arm import Left, SimArm, SimJoint, about_centre
-from app.diagnosis.export.targets._words import joint_names, lost, named, remark, said
+from app.diagnosis.export.targets._words import joint_names, lateness, lost, named, remark, said
 from app.geometry import convention
 
 _NO_WORD = "URDF has no word for it"
@@ -50,7 +50,7 @@ def _world(arm: SimArm, why: str) -> list[Left]:
     """What belongs to the surroundings and not to the arm."""
     out = []
     if arm.delay:
-        out.append(Left("delay", f"{arm.delay:.4g} s", why))
+        out.append(lateness(arm, why))
     if abs(arm.gravity[0]) + abs(arm.gravity[1]) + abs(arm.gravity[2] + 9.81) > 1e-9:
         out.append(Left("gravity in base", ", ".join(f"{v:.5g}" for v in arm.gravity) + " m/s^2", why))
     return out

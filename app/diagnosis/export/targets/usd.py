@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from app.diagnosis.export.arm import Left, SimArm, SimJoint, about_centre
-from app.diagnosis.export.targets._words import joint_names, lost, named, remark
+from app.diagnosis.export.targets._words import joint_names, lateness, lost, named, remark
 from app.geometry import quaternion_from_rotation
 from app.units import deg, from_deg
 
@@ -26,7 +26,7 @@ class Usd:
     def write(self, arm: SimArm) -> tuple[str, tuple[Left, ...]]:
         left = lost(arm, ("damping2", "offset", "gain"), _NO_WORD)
         if arm.delay:
-            left.append(Left("delay", f"{arm.delay:.4g} s", _NO_WORD))
+            left.append(lateness(arm, _NO_WORD))
         form = f"{self.title} {self.version}"
         size = float(np.linalg.norm(arm.gravity))
         down = arm.gravity / size if size else np.array([0.0, 0.0, -1.0])

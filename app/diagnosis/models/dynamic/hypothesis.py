@@ -3,10 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
 from app.kinematics.robot import GRAVITY
+
+if TYPE_CHECKING:
+    from app.diagnosis.effects.dynamic._law import Law
+    from app.diagnosis.effects.effect import Place
+    from app.diagnosis.models.dynamic.samples import Samples
 
 
 @dataclass(frozen=True, eq=False)
@@ -97,3 +103,27 @@ class Hypothesis:
 def as_given(joints: int) -> Hypothesis:
     """The log is what its header says, the arm stands as its description does."""
     return Hypothesis(joints, GRAVITY.copy())
+
+
+class Read(Protocol):
+    """A log under a hypothesis, with friction of each joint ready to be projected off."""
+
+    samples: Samples
+
+    def off(self, j: int, values: np.ndarray) -> np.ndarray: ...
+
+
+@dataclass(frozen=True, eq=False)
+class Trial:
+    """A hypothesis that an effect offers to try before anything is fitted.
+
+    Args:
+        law: the effect that it undoes.
+        place: of it, as reported.
+        each: True where a number of every joint was fitted for it.
+    """
+
+    law: Law
+    place: Place
+    hypothesis: Hypothesis
+    each: bool = False

@@ -5,6 +5,8 @@ None is the orange of "before" or the blue of "after" (style.py).
 
 from __future__ import annotations
 
+from app.diagnosis.result import UNNAMED
+
 #: Grey is what has no name; noise is drawn lighter still.
 COLOURS = {
     "conventions": "#4a3a8c",
@@ -23,7 +25,7 @@ COLOURS = {
     "instrument": "#a9b665",
     "drive": "#a9b665",
     "events": "#7a1f2b",
-    "unnamed": "#8b96a0",
+    UNNAMED: "#8b96a0",
 }
 #: Families whose colour is light: numbers on them are dark.
 LIGHT = {"geometry", "rotors", "gears", "timing", "instrument", "drive"}
