@@ -7,8 +7,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from app.diagnosis.quantity import quantity
 from app.diagnosis.report.budget import budget_sentence, unexplained_sentence
-from app.diagnosis.report.wording import effect_title, place, quantity
+from app.diagnosis.report.wording import effect_title, place
 from app.diagnosis.result import Diagnosis
 from app.units import mm
 from benchmarks._calibration.fit import ELASTIC, GEOMETRY, NOTHING, Errors
@@ -110,12 +111,10 @@ def _program(ours: Learnt) -> list[str]:
 
 
 def _found(d: Diagnosis) -> list[str]:
-    listed = [
-        f"{effect_title(f.effect)}, {place(f.where)}: {', '.join(quantity(p) for p in f.parameters)}".rstrip(
-            ": "
-        )
-        for f in d.findings[:LISTED]
-    ]
+    listed = []
+    for f in d.findings[:LISTED]:
+        values = ", ".join(quantity(p, marked=False) for p in f.parameters)
+        listed.append(f"{effect_title(f.effect)}, {place(f.where)}: {values}".rstrip(": "))
     more = len(d.findings) - len(listed)
     return [*listed, *([f"and {more} more"] if more > 0 else [])]
 
@@ -153,7 +152,7 @@ def section(lines: Sequence[Line]) -> str:
             "Carried to a run that was not learnt from, base, tool and touched points fitted there:",
             markdown(["learnt on", "judged on", *STAGES, "program"], there),
             "What the program found:",
-            markdown(["command", "verdict", "where the error comes from", "found"], found),
+            markdown(["command", "verdict", "where the error comes from", "found (± 95%)"], found),
         ]
     )
 

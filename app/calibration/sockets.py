@@ -19,7 +19,7 @@ import numpy as np
 from app.calibration.result import ToolCalibration
 from app.calibration.wording import degenerate
 from app.errors import DegenerateGeometryError, TooFewPointsError
-from app.estimation import reach
+from app.estimation import HALF, reach
 from app.geometry import Pose
 from app.recordings import Table
 from app.recordings.arm import robot_for
@@ -190,7 +190,7 @@ def sockets_page(found: Sockets) -> str:
         "tool point in the flange [mm]   value   95% between placements   95% if every touch erred alone",
     ]
     between_half = reach(result.dof, dimensions=1) * mm(result.sigma_tool)
-    own_half = reach(0, dimensions=1) * mm(found.sigma_residual)  # from hundreds of touches
+    own_half = HALF * mm(found.sigma_residual)  # from hundreds of touches
     for axis, value, between, own in zip("xyz", mm(result.tool_point), between_half, own_half, strict=True):
         lines.append(f"  {axis}                     {value:>12.3f} ± {between:<20.3f} ± {own:.3f}")
     known = found.heldout[np.isfinite(found.heldout)]

@@ -9,6 +9,7 @@ from app.calibration.quality.region import ellipsoid, half_widths
 from app.calibration.solving import Solved
 from app.calibration.wording import FALLBACK, TEXTS, Phrase, name_of, phrase
 from app.errors import DegenerateGeometryError
+from app.estimation import HALF
 from app.geometry import CONVENTIONS
 from app.phrases import padded
 from app.units import deg, mm
@@ -122,12 +123,12 @@ class _Page:
         effect, result, t = self._solved.rounding, self._result, self._t
         if not len(result.residual_vectors):
             return []
-        sigma = mm(effect.sigma_tool)
-        if sigma.max() < 5e-4:
+        half = HALF * mm(effect.sigma_tool)
+        if half.max() < 5e-4:
             lines = [t("rounding_none")]
         else:
-            text = ", ".join(f"{a} {v:.3f}" for a, v in zip("xyz", sigma, strict=True))
-            lines = [t("rounding", sigma=text, columns=_list(effect.columns[:3]))]
+            text = ", ".join(f"{a} {v:.3f}" for a, v in zip("xyz", half, strict=True))
+            lines = [t("rounding", half=text, columns=_list(effect.columns[:3]))]
             if result.sigma > 0:
                 share = effect.touch / result.sigma
                 fields = {"touch": mm(effect.touch), "found": mm(result.sigma)}

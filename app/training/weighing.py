@@ -15,6 +15,7 @@ import numpy as np
 
 from app.diagnosis.dispatch import diagnose_file
 from app.diagnosis.result import Progress
+from app.estimation import HALF
 from app.geometry import angle_between, skew
 from app.kinematics import RobotModel, load_robot
 from app.kinematics.dynamics import inverse_dynamics
@@ -34,7 +35,6 @@ _NOISE = 0.002  # of each joint's largest torque
 _FRICTION = 0.02  # the same, dry
 _VISCOUS = 0.01  # the same, at 1 rad/s
 _LIGHTEST, _HEAVIEST = 0.02, 0.05  # of the arm's mass
-_HALF = 1.96  # standard errors of a 95% interval
 _OUT = (0.03, 0.12)  # m, of the centre from the flange
 
 
@@ -104,8 +104,8 @@ def weigh(robot: str, poses: np.ndarray, seed: int, folder: Path, say: Progress)
             values = {p.name: p for p in finding.parameters}
             centre = [values[f"com_{c}"] for c in "xyz"]
             x, y, z = (p.value for p in centre)
-            dx, dy, dz = (_HALF * p.std for p in centre)
-            return LoadData(values["mass"].value, (x, y, z), _HALF * values["mass"].std, (dx, dy, dz))
+            dx, dy, dz = (HALF * p.std for p in centre)
+            return LoadData(values["mass"].value, (x, y, z), HALF * values["mass"].std, (dx, dy, dz))
     return None
 
 

@@ -11,6 +11,7 @@ from app.calibration.base.frame import adjoint
 from app.calibration.base.poses import PoseBase
 from app.calibration.base.wording import phrase, remark
 from app.calibration.result import Warning_
+from app.estimation import HALF
 from app.geometry import Pose
 from app.kinematics import RobotModel
 from app.units import deg, from_deg, from_mm, mm
@@ -114,8 +115,8 @@ def _weak(base: PoseBase) -> tuple[Warning_, ...]:
     return (
         remark(
             "weak_poses",
-            place=mm(worst),
-            turn=deg(float(np.sqrt(np.trace(base.covariance[3:, 3:])))),
+            place=HALF * mm(worst),
+            turn=HALF * deg(float(np.sqrt(np.trace(base.covariance[3:, 3:])))),
             wrist=deg(base.wrist),
             condition=base.fit.condition,
         ),

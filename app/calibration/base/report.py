@@ -13,15 +13,13 @@ from app.calibration.base.relation import Relation
 from app.calibration.base.result import BaseCalibration
 from app.calibration.base.wording import TEXTS
 from app.calibration.result import Warning_
-from app.estimation import reach
+from app.estimation import HALF
 from app.geometry import Pose
 from app.geometry.conventions import convention
 from app.phrases import FALLBACK, Phrase, padded
 from app.units import deg, mm
 
 FORMAT = "teachframe.base/1"
-#: Standard errors in half a 95% interval; the noise of a coordinate comes from hundreds of readings.
-HALF = reach(0, dimensions=1)
 
 
 def matrix_mm(pose: Pose) -> list[list[float]]:

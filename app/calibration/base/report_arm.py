@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from app.calibration.base.report import HALF
 from app.calibration.base.sixaxis import ArmGeometry, Quantity
 from app.calibration.base.wording import TEXTS
+from app.estimation import HALF
 from app.kinematics import RobotModel
 from app.phrases import FALLBACK, padded
 from app.units import deg, mm

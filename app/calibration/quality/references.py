@@ -10,6 +10,7 @@ from scipy import special
 from app.calibration.quality.rounding import Rounding
 from app.calibration.result import ToolCalibration
 from app.calibration.wording import TEXTS, phrase
+from app.estimation import HALF
 from app.units import mm
 
 #: A gap this rare under an explanation is not explained by it.
@@ -43,7 +44,7 @@ class Gap:
         """What a person reads."""
         text = ", ".join(f"{a} {v:+.3f}" for a, v in zip("xyz", mm(self.gap), strict=True))
         key = {"rounding": "rounding", "touch noise": "noise"}.get(self.explained_by, "nothing")
-        most = float(np.max(np.abs(self.sigmas)))
+        most = float(np.max(np.abs(self.sigmas))) / HALF
         name = self.title(language)
         return phrase(f"gap.{key}", name=name, gap=text, most=most, p=self.p_value).text(language)
 

@@ -11,6 +11,7 @@ from app.calibration.report.cell_picture import cell_picture
 from app.calibration.report.pictures import distance_picture, tilt_picture, tool_picture
 from app.calibration.solving import Solved
 from app.calibration.wording import FALLBACK, name_of, phrase
+from app.estimation import HALF
 from app.geometry import CONVENTIONS
 from app.templating import templates
 from app.units import deg, mm
@@ -152,7 +153,7 @@ class _Sheet:
     def _figures(self) -> tuple[list[tuple[str, str]], list[tuple[str, str]]]:
         result, t = self._result, self._t
         region = " × ".join(f"{v:.2f}" for v in mm(ellipsoid(result).semi_axes)) if result.dof > 0 else "?"
-        rounded = " / ".join(f"{v:.3f}" for v in mm(self._solved.rounding.sigma_tool))
+        rounded = " / ".join(f"{v:.3f}" for v in HALF * mm(self._solved.rounding.sigma_tool))
         pairs = [
             (t("mean"), f"{mm(result.mean):.3f} mm"),
             (t("max"), t("max_touch", value=mm(result.max), touch=result.worst + 1)),
@@ -161,7 +162,7 @@ class _Sheet:
             (t("sigma"), t("sigma_dof", value=mm(result.sigma), dof=result.dof)),
             (t("region"), f"{region} mm"),
             (t("condition"), f"{result.condition:.2f}"),
-            (t("rounding"), f"{rounded} mm"),
+            (t("rounding"), f"± {rounded} mm"),
         ]
         half = (len(pairs) + 1) // 2
         return pairs[:half], pairs[half:]

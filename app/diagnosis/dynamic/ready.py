@@ -14,6 +14,7 @@ from app.diagnosis.observations.joint_log import Log, read_log
 from app.diagnosis.thresholds.evidence import NOMINAL, TRUSTS
 from app.diagnosis.wording import note
 from app.errors import CellValueError
+from app.estimation import plus_minus
 from app.kinematics import RobotModel
 from app.kinematics.dynamics import inverse_dynamics
 from app.phrases import Said
@@ -37,7 +38,7 @@ def ready(table: Table, robot: RobotModel) -> tuple[Log, Motion, frozenset[str]]
         told = np.isfinite(sigmas)
         trust = NOMINAL * _trust(table)  # what is told by the weight is known as well as that is
         sigmas = np.hypot(sigmas, trust * gains)
-        said = tuple(f"{g:.3g} ± {s:.2g}" for g, s in zip(gains[told], sigmas[told], strict=True))
+        said = tuple(plus_minus(g, s, marked=False) for g, s in zip(gains[told], sigmas[told], strict=True))
         remarks = [note("gains_estimated" if log.lacking == GAIN else "stiffness_estimated", gains=said)]
         if not told.all():
             joints = tuple(int(j) + 1 for j in np.flatnonzero(~told))

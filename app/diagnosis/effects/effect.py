@@ -180,12 +180,6 @@ class Effect(ABC, Generic[Situation, Columns, Cell]):
         )
 
 
-def number(parameter: Parameter, digits: int = 3) -> str:
-    """A value with its uncertainty, as a person writes it."""
-    unit = "" if parameter.unit == "1" else f" {parameter.unit}"
-    return f"{parameter.value:.{digits}g} ± {parameter.std:.1g}{unit}"
-
-
 def joint_name(place: Place) -> str:
     """The joint of a place, as in `joint 3`."""
     return f"joint {place.where['joint']}"

@@ -7,6 +7,7 @@ import textwrap
 from collections.abc import Sequence
 from pathlib import Path
 
+from app.diagnosis.quantity import quantity
 from app.diagnosis.report.budget import (
     SMALL_LAW,
     Budget,
@@ -28,7 +29,6 @@ from app.diagnosis.report.wording import (
     parameter_name,
     place,
     probability,
-    quantity,
     rivals,
     verdict_sentence,
 )

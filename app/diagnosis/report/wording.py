@@ -7,24 +7,14 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from app.diagnosis.judging import BARE, WITH
-from app.diagnosis.result import Diagnosis, Finding, Judged, Parameter
+from app.diagnosis.quantity import quantity
+from app.diagnosis.result import Diagnosis, Finding, Judged
 from app.diagnosis.wording import FALLBACK, WORDS, in_words
-from app.units import deg, mm, um
-
-#: SI unit of a parameter -> (unit a person reads, conversion), where they differ.
-_READ_AS = {
-    "rad": ("deg", deg),
-    "m": ("mm", mm),
-    "rad/Nm": ("µrad/Nm", um),
-    "m/N": ("µm/N", um),
-    "rad/s": ("deg/s", deg),
-    "m/s": ("mm/s", mm),
-}
+from app.units import deg, mm
 
 #: What is in the simulation while a given model is judged -> the key of its words.
 _STEPS = {BARE: "judged.bare", WITH: "judged.with"}
 _NEARLY_ALL = 0.99
-_UNIT_WORDS = ("row", "turn")  # units that are words
 
 
 def effect_title(key: str, language: str = FALLBACK) -> str:
@@ -130,29 +120,6 @@ def finding_law(finding: Finding, language: str = FALLBACK) -> str:
         if WORDS.has(key) and WORDS.text(key) == finding.equation:
             return WORDS.text(key, language)
     return in_words(finding.equation, language)
-
-
-def quantity(parameter: Parameter, language: str = FALLBACK) -> str:
-    """ "12.3 ± 0.4 µrad/Nm": the uncertainty gets two digits and the value as many places."""
-    unit, convert = _READ_AS.get(
-        parameter.unit, ("" if parameter.unit == "1" else parameter.unit, lambda x: x)
-    )
-    for word in _UNIT_WORDS:
-        if unit.endswith(f"/{word}"):
-            unit = unit.removesuffix(word) + WORDS.text(f"unit.{word}", language)
-    return f"{plus_minus(float(convert(parameter.value)), float(convert(parameter.std)))} {unit}".strip()
-
-
-def plus_minus(value: float, std: float) -> str:
-    """A value with its one-sigma uncertainty, both to the same place."""
-    if not math.isfinite(std) or std <= 0:
-        return f"{value:.4g}"
-    places = 1 - math.floor(math.log10(std))
-    if places > 9 or places < -6:
-        return f"{value:.4g} ± {std:.2g}"
-    if places <= 0:
-        return f"{round(value, places):.0f} ± {round(std, places):.0f}"
-    return f"{value:.{places}f} ± {std:.{places}f}"
 
 
 def measure(value: float, unit: str) -> str:

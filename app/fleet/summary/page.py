@@ -9,8 +9,9 @@ from datetime import UTC, datetime
 from typing import Any
 
 from app import __version__
+from app.diagnosis.quantity import quantity
 from app.diagnosis.report.style import CSS
-from app.diagnosis.report.wording import effect_title, parameter_name, place, quantity
+from app.diagnosis.report.wording import effect_title, parameter_name, place
 from app.diagnosis.result import Parameter
 from app.fleet.summary.drift import Drift, drifts
 from app.fleet.summary.news import News, news

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from app.calibration.base.report import HALF
+from app.estimation import HALF
 from app.panel import markup as html
 from app.screens._base.run import Run
 from app.units import deg, mm

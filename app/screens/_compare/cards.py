@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from app.diagnosis.model import SavedModel
+from app.diagnosis.quantity import quantity
 from app.diagnosis.report.budget import budget, family_name, folded_sentence, percent
 from app.diagnosis.report.drawing.palette import colour
 from app.diagnosis.report.wording import (
@@ -22,7 +23,6 @@ from app.diagnosis.report.wording import (
     parameter_name,
     place,
     probability,
-    quantity,
     verdict_sentence,
 )
 from app.diagnosis.result import Diagnosis, Finding, Judged

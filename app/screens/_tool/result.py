@@ -9,6 +9,7 @@ import numpy as np
 from app.calibration.quality.region import ellipsoid, half_widths
 from app.calibration.solving import Solved
 from app.calibration.wording import name_of
+from app.estimation import HALF
 from app.geometry import CONVENTIONS
 from app.panel import markup as html
 from app.scene.region import cone_factor, region_factor
@@ -139,9 +140,9 @@ def _remarks(context: Context, solved: Solved) -> list[tuple[str, str]]:
         )
         for w in result.warnings
     ]
-    sigma = mm(effect.sigma_tool)
-    if len(result.residual_vectors) and sigma.max() >= 5e-4:
-        x, y, z = (f"{v:.2f}" for v in sigma)
+    half = HALF * mm(effect.sigma_tool)
+    if len(result.residual_vectors) and half.max() >= 5e-4:
+        x, y, z = (f"{v:.2f}" for v in half)
         out.append(("blue", t("result.rounding", x=x, y=y, z=z, columns=", ".join(effect.columns[:3]))))
         if result.sigma > 0:
             share = effect.touch / result.sigma
@@ -151,7 +152,7 @@ def _remarks(context: Context, solved: Solved) -> list[tuple[str, str]]:
     for gap in solved.gaps:
         key = {"rounding": "gap_rounding", "touch noise": "gap_noise"}.get(gap.explained_by, "gap_nothing")
         x, y, z = (f"{v:+.3f}" for v in mm(gap.gap))
-        most = float(np.max(np.abs(gap.sigmas)))
+        most = float(np.max(np.abs(gap.sigmas))) / HALF
         words = t(f"result.{key}", name=gap.title(context.language), x=x, y=y, z=z, most=f"{most:.1f}")
         out.append(("red" if key == "gap_nothing" else "blue", words))
     return out

@@ -50,11 +50,11 @@ def rows(page):
 
 def test_each_value_stands_at_its_joint_under_its_effect():
     heads, *table = rows(str(joints(Case(found()))))
-    assert heads == ["", "Joint zero", "Link length", "Joint compliance", "Gear eccentricity"]
+    assert heads == ["± 95%", "Joint zero", "Link length", "Joint compliance", "Gear eccentricity"]
     assert [row[0] for row in table] == ["joint 1", "joint 2", "joint 3", "joint 4"]
-    assert table[1][1:] == ["0.0573 ± 0.0057 deg", "", "12.34 ± 0.41 µrad/Nm", ""]
-    assert table[2][4] == "n=2 sin 0.00573 ± 0.00057 deg; n=2 cos 0.01146 ± 0.00057 deg"
-    assert table[3][2] == "a 0.300 ± 0.020 mm"
+    assert table[1][1:] == ["0.057 ± 0.011 deg", "", "12.34 ± 0.80 µrad/Nm", ""]
+    assert table[2][4] == "n=2 sin 0.0057 ± 0.0011 deg; n=2 cos 0.0115 ± 0.0011 deg"
+    assert table[3][2] == "a 0.300 ± 0.039 mm"
 
 
 def test_what_belongs_to_no_joint_makes_no_row_and_one_law_no_table():

@@ -2,11 +2,12 @@
 
 import dataclasses
 import math
+import re
 
 import pytest
 
-from app.diagnosis.report import as_text
-from app.diagnosis.report.wording import digits, plus_minus, probability
+from app.diagnosis.report import as_page, as_text
+from app.diagnosis.report.wording import digits, probability
 from app.diagnosis.result import Noise, Quality
 from tests.diagnosis.report.cases import motion_case, static_case
 from tests.golden_text import assert_golden
@@ -46,10 +47,17 @@ def test_a_sliding_joint_is_proposed_in_millimetres():
     assert "1200.0 mm" in text and "5.7°" in text
 
 
-def test_the_uncertainty_sets_how_many_digits_the_value_gets():
-    assert plus_minus(12.3456, 0.0321) == "12.346 ± 0.032"
-    assert plus_minus(12345.6, 321.0) == "12350 ± 320"
-    assert plus_minus(0.5, 0.0) == "0.5"
+@pytest.mark.parametrize("language", ["en", "zh"])
+def test_every_uncertainty_of_text_and_page_is_95_percent(language):
+    case = static_case()
+    (finding,) = case.findings
+    (compliance,) = finding.parameters
+    half = f"± {1.96 * compliance.std * 1e6:.2f} µrad/Nm (95%)"
+    page = as_page([case], [None], command="", language=language)
+    for said in (as_text(case), page):
+        assert half in said
+        assert all("95%" in rest[:40] for rest in said.split("±")[1:]), said
+    assert not re.search(r"standard deviation|one.sigma|一个标准差|一倍标准差", page)
 
 
 def test_three_digits_are_kept_without_an_exponent():

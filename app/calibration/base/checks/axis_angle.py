@@ -9,7 +9,7 @@ from app.calibration.base.checks import Check
 from app.calibration.base.result import BaseCalibration
 from app.calibration.base.wording import remark
 from app.calibration.result import Warning_
-from app.estimation import reach
+from app.estimation import HALF
 from app.units import deg, from_deg
 
 SIGMAS = 3.29  # 1 in 1000
@@ -19,7 +19,7 @@ _WORTH_NAMING = from_deg(0.001)
 def _frame(base: BaseCalibration) -> Iterator[Warning_]:
     off = base.angle - math.pi / 2.0
     if abs(off) > max(SIGMAS * base.angle_sigma, _WORTH_NAMING):
-        half = reach(0, dimensions=1) * deg(base.angle_sigma)
+        half = HALF * deg(base.angle_sigma)
         yield remark(CHECK.key, angle=deg(base.angle), off=abs(deg(off)), half=half)
 
 

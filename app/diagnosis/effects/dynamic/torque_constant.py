@@ -16,6 +16,7 @@ from app.diagnosis.models.dynamic.state import State
 from app.diagnosis.result import Parameter
 from app.diagnosis.thresholds.evidence import GAIN_SPREAD, SAME_DRIVE
 from app.diagnosis.thresholds.readings import FACTOR
+from app.estimation import plus_minus
 from app.kinematics import RobotModel
 
 NOMINAL = 0.3  # drive gains of a maker differ by some percent; one that was taken for another by tens
@@ -127,13 +128,14 @@ class TorqueConstant(JointLaw):
         return (Gain(factor, joint),) if factor > 0.0 else ()
 
     def sentence(self, place: Place, parameters: tuple[Parameter, ...]) -> str:
-        factor, std = 1.0 + parameters[0].value, parameters[0].std
+        factor = 1.0 + parameters[0].value
+        times = plus_minus(factor, parameters[0].std)
         current = " Are these motor currents?" if factor < CURRENT else ""
         if "joint" in place.where:
-            said = f"The torque of joint {place.where['joint']} is recorded at {factor:.4g} ± {std:.1g} of what it is."
+            said = f"The torque of joint {place.where['joint']} is recorded at {times} of what it is."
             return said + current
         return (
-            f"The torques are {factor:.4g} ± {std:.1g} times the description's in every joint: "
+            f"The torques are {times} times the description's in every joint: "
             f"torque factor or masses, this log cannot tell which.{current}"
         )
 

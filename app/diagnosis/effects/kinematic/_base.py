@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from app.diagnosis.effects.effect import Effect, Place, Quantity, joint_name, number
+from app.diagnosis.effects.effect import Effect, Place, Quantity, joint_name
 from app.diagnosis.models.kinematic.cell import Cell
 from app.diagnosis.models.kinematic.sensitivity import Sensitivity
 from app.diagnosis.models.kinematic.situation import Situation
@@ -20,7 +20,6 @@ __all__ = [
     "masked",
     "moving",
     "nominal_compliance",
-    "number",
     "rms",
     "since",
 ]

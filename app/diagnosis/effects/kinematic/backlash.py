@@ -13,8 +13,8 @@ from app.diagnosis.effects.kinematic._base import (
     joint_driver,
     joint_name,
     joints,
-    number,
 )
+from app.diagnosis.quantity import quantity
 
 #: rad: play of good gears, 0.7 arc minutes.
 _WIDTH = 2e-4
@@ -58,9 +58,9 @@ class Backlash(KinematicEffect):
     def sentence(self, place, parameters):
         how = "direction it came from" if place.where["driver"] == "approach" else "side gravity loads it on"
         if parameters[0].value < 0:
-            what = f"The play of {joint_name(place)} is compensated {number(parameters[0])} too much"
+            what = f"The play of {joint_name(place)} is compensated {quantity(parameters[0])} too much"
         else:
-            what = f"{joint_name(place).capitalize()} has play of {number(parameters[0])}"
+            what = f"{joint_name(place).capitalize()} has play of {quantity(parameters[0])}"
         return f"{what}: where it stops depends on the {how}."
 
 

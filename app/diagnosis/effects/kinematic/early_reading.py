@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from app.diagnosis.effects.effect import Level
-from app.diagnosis.effects.kinematic._base import KinematicEffect, Place, Quantity, number
+from app.diagnosis.effects.kinematic._base import KinematicEffect, Place, Quantity
+from app.diagnosis.quantity import quantity
 from app.diagnosis.thresholds.evidence import LAW
 
 #: relative: settling of servo loops a fraction of a second after a move.
@@ -40,7 +41,7 @@ class EarlyReading(KinematicEffect):
 
     def sentence(self, place, parameters):
         return (
-            f"Every joint ends {number(parameters[0])} of its last move beyond the angle recorded: the angles "
+            f"Every joint ends {quantity(parameters[0])} of its last move beyond the angle recorded: the angles "
             f"were read before the arm had stopped."
         )
 

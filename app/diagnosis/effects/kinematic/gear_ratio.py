@@ -10,8 +10,8 @@ from app.diagnosis.effects.kinematic._base import (
     joint_driver,
     joint_name,
     moving,
-    number,
 )
+from app.diagnosis.quantity import quantity
 
 #: relative: belts, and ratios rounded in a controller's tables.
 _WIDTH = 3e-4
@@ -45,7 +45,9 @@ class GearRatio(KinematicEffect):
         return joint_driver(columns, j, columns.situation.q[:, j - 1])
 
     def sentence(self, place, parameters):
-        return f"{joint_name(place).capitalize()} turns by {number(parameters[0])} times its angle too much."
+        return (
+            f"{joint_name(place).capitalize()} turns by {quantity(parameters[0])} times its angle too much."
+        )
 
 
 EFFECT = GearRatio()

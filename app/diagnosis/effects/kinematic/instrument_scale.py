@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from app.diagnosis.effects.kinematic._base import KinematicEffect, Place, Quantity, number
+from app.diagnosis.effects.kinematic._base import KinematicEffect, Place, Quantity
+from app.diagnosis.quantity import quantity
 
 #: relative: air, temperature of scales and fixtures.
 _WIDTH = 1e-4
@@ -33,7 +34,7 @@ class InstrumentScale(KinematicEffect):
         return columns.scale[:, :, None]
 
     def sentence(self, place, parameters):
-        return f"The instrument's lengths are too long by {number(parameters[0])} of themselves."
+        return f"The instrument's lengths are too long by {quantity(parameters[0])} of themselves."
 
 
 EFFECT = InstrumentScale()

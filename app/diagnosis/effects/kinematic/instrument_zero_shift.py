@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from app.diagnosis.effects.kinematic._base import KinematicEffect, Place, Quantity, masked, number, since
+from app.diagnosis.effects.kinematic._base import KinematicEffect, Place, Quantity, masked, since
+from app.diagnosis.quantity import quantity
 
 #: m: a wire that slipped on its drum; a tracker's range is off by the mount of its reflector at most.
 _WIDTH_WIRE, _WIDTH_POINTS = 5e-3, 1e-4
@@ -37,7 +38,7 @@ class InstrumentZeroShift(KinematicEffect):
 
     def sentence(self, place, parameters):
         since_row = f" from row {place.where['from_row']} on" if "from_row" in place.where else ""
-        return f"The instrument reads ranges too long by {number(parameters[0])}{since_row}."
+        return f"The instrument reads ranges too long by {quantity(parameters[0])}{since_row}."
 
 
 EFFECT = InstrumentZeroShift()

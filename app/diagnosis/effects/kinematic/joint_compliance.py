@@ -10,8 +10,8 @@ from app.diagnosis.effects.kinematic._base import (
     joint_name,
     moving,
     nominal_compliance,
-    number,
 )
+from app.diagnosis.quantity import quantity
 
 #: Share of the largest load below which a joint carries nothing that could wind it up: it would have to be a hundred
 #: times as soft to be seen, and what sensors show there is their own noise.
@@ -58,7 +58,7 @@ class JointCompliance(KinematicEffect):
         return joint_driver(columns, j, -columns.situation.torque[:, j - 1])
 
     def sentence(self, place, parameters):
-        return f"{joint_name(place).capitalize()} gives way under gravity by {number(parameters[0])}."
+        return f"{joint_name(place).capitalize()} gives way under gravity by {quantity(parameters[0])}."
 
 
 EFFECT = JointCompliance()

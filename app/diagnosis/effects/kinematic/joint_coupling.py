@@ -12,8 +12,8 @@ from app.diagnosis.effects.kinematic._base import (
     joint_driver,
     joint_name,
     moving,
-    number,
 )
+from app.diagnosis.quantity import quantity
 
 #: relative: ratios of wrist gears rounded in a controller's tables.
 _WIDTH = 3e-4
@@ -63,7 +63,7 @@ class JointCoupling(KinematicEffect):
     def sentence(self, place, parameters):
         return (
             f"{joint_name(place).capitalize()} is moved by joint {place.where['source_joint']}: "
-            f"{number(parameters[0])} of its angle."
+            f"{quantity(parameters[0])} of its angle."
         )
 
 

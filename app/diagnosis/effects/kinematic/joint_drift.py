@@ -13,9 +13,9 @@ from app.diagnosis.effects.kinematic._base import (
     joint_driver,
     joint_name,
     joints,
-    number,
 )
 from app.diagnosis.models.kinematic.pace import pace, paces, per_unit
+from app.diagnosis.quantity import quantity
 
 #: rad over the whole recording: encoders and gears that warm up.
 _WIDTH = 2e-4
@@ -50,9 +50,7 @@ class JointDrift(KinematicEffect):
         return joint_driver(columns, place.where["joint"], pace(columns.situation, place))
 
     def sentence(self, place, parameters):
-        return (
-            f"The zero of {joint_name(place)} wanders with {place.where['driver']}: {number(parameters[0])}."
-        )
+        return f"The zero of {joint_name(place)} wanders with {place.where['driver']}: {quantity(parameters[0])}."
 
 
 EFFECT = JointDrift()

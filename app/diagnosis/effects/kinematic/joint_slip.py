@@ -10,9 +10,9 @@ from app.diagnosis.effects.kinematic._base import (
     joint_name,
     joints,
     masked,
-    number,
     since,
 )
+from app.diagnosis.quantity import quantity
 
 #: rad (or m): lost counts are small, teeth are large.
 _WIDTH = 5e-4
@@ -44,7 +44,7 @@ class JointSlip(KinematicEffect):
 
     def sentence(self, place, parameters):
         return (
-            f"The zero of {joint_name(place)} jumped by {number(parameters[0])} "
+            f"The zero of {joint_name(place)} jumped by {quantity(parameters[0])} "
             f"at row {place.where['from_row']}."
         )
 

@@ -10,8 +10,8 @@ from app.diagnosis.effects.kinematic._base import (
     angle_unit,
     joint_name,
     moving,
-    number,
 )
+from app.diagnosis.quantity import quantity
 
 #: rad (or m): zeros of arms as they leave the works.
 _WIDTH = 1e-3
@@ -52,7 +52,7 @@ class JointZero(KinematicEffect):
         return (Placed(k, shift=axis) if robot.joints[k - 1].prismatic else Placed(k, turn=axis),)
 
     def sentence(self, place, parameters):
-        return f"The zero of {joint_name(place)} is off by {number(parameters[0])}."
+        return f"The zero of {joint_name(place)} is off by {quantity(parameters[0])}."
 
 
 EFFECT = JointZero()

@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from app.diagnosis.effects.described import Placed, only
-from app.diagnosis.effects.kinematic._base import KinematicEffect, Place, Quantity, joints, number
+from app.diagnosis.effects.kinematic._base import KinematicEffect, Place, Quantity, joints
 from app.diagnosis.models.kinematic.geometry import AXES, link_axes
+from app.diagnosis.quantity import quantity
 
 #: m: castings and assembly of industrial arms.
 _WIDTH = 3e-4
@@ -57,7 +58,7 @@ class LinkLength(KinematicEffect):
         return (Placed(k + 1, shift=vector * only(parameters)),)
 
     def sentence(self, place, parameters):
-        return f"{place.where['axis']} of link {place.where['link']} is off by {number(parameters[0])}."
+        return f"{place.where['axis']} of link {place.where['link']} is off by {quantity(parameters[0])}."
 
 
 EFFECT = LinkLength()

@@ -6,6 +6,7 @@ import numpy as np
 
 from app.diagnosis.effects.described import body
 from app.diagnosis.effects.kinematic._base import KinematicEffect, Place, Quantity
+from app.diagnosis.quantity import quantity
 from app.diagnosis.result import Parameter
 
 _NEGLIGIBLE = 1e-3  # kg: below this the centre of mass means nothing
@@ -79,9 +80,7 @@ class Payload(KinematicEffect):
         return ("mass", "0 kg or more") if parameters.get("mass", 0.0) < 0.0 else None
 
     def sentence(self, place, parameters):
-        return (
-            f"The flange carries {parameters[0].value:.3g} ± {parameters[0].std:.1g} kg that nobody declared."
-        )
+        return f"The flange carries {quantity(parameters[0])} that nobody declared."
 
 
 EFFECT = Payload()

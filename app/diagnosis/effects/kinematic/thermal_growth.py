@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from app.diagnosis.effects.effect import Level
-from app.diagnosis.effects.kinematic._base import KinematicEffect, Place, Quantity, joints, number
+from app.diagnosis.effects.kinematic._base import KinematicEffect, Place, Quantity, joints
 from app.diagnosis.models.kinematic.pace import forms, per_unit, shaped
+from app.diagnosis.quantity import quantity
 from app.diagnosis.thresholds.evidence import LAW
 
 #: relative, over the whole recording: aluminium and steel warmed by 10 to 20 K.
@@ -55,7 +56,7 @@ class ThermalGrowth(KinematicEffect):
 
     def sentence(self, place, parameters):
         what = f"Link {place.where['link']} grows" if "link" in place.where else "All links grow"
-        return f"{what} with {place.where['driver']}: {number(parameters[0])} of the length."
+        return f"{what} with {place.where['driver']}: {quantity(parameters[0])} of the length."
 
 
 def _links(situation, place) -> list[int]:

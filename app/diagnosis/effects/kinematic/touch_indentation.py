@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from app.diagnosis.effects.kinematic._base import KinematicEffect, Place, Quantity, number
+from app.diagnosis.effects.kinematic._base import KinematicEffect, Place, Quantity
+from app.diagnosis.quantity import quantity
 
 #: m: a tip pressed by hand.
 _WIDTH = 3e-4
@@ -32,7 +33,7 @@ class TouchIndentation(KinematicEffect):
         return columns.press[:, :, None]
 
     def sentence(self, place, parameters):
-        return f"The tip was pressed {number(parameters[0])} past the target."
+        return f"The tip was pressed {quantity(parameters[0])} past the target."
 
 
 EFFECT = TouchIndentation()

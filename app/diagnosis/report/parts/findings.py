@@ -7,6 +7,7 @@ from typing import Any
 
 from markupsafe import Markup
 
+from app.diagnosis.quantity import quantity
 from app.diagnosis.report.budget import budget, family_name, folded_sentence, law_share, percent, shown
 from app.diagnosis.report.drawing.palette import OTHER, colour
 from app.diagnosis.report.parts.case import Case
@@ -18,7 +19,6 @@ from app.diagnosis.report.wording import (
     parameter_name,
     place,
     probability,
-    quantity,
     rivals,
 )
 from app.diagnosis.result import Finding

@@ -1,14 +1,17 @@
-"""One row a joint: everything that was found of it, each value with its standard deviation."""
+"""One row a joint: everything that was found of it, each value with its 95% interval."""
 
 from __future__ import annotations
 
 from markupsafe import Markup
 
+from app.diagnosis.quantity import quantity
 from app.diagnosis.report.budget import budget
 from app.diagnosis.report.parts.case import Case
-from app.diagnosis.report.wording import effect_title, parameter_name, quantity
+from app.diagnosis.report.wording import effect_title, parameter_name
 from app.diagnosis.result import Finding
+from app.estimation import LEVEL
 
+_HEAD = f"± {LEVEL:.0%}"  # of every value in the table
 #: Columns of values beside each other on one page.
 _MOST_COLUMNS = 5
 #: What tells laws of one effect on one joint apart -> how it is written: axis, waves a turn, the joint that moves it.
@@ -28,7 +31,7 @@ def joints(case: Case) -> Markup | str:
     tables = []
     for first in range(0, len(effects), _MOST_COLUMNS):
         shown = effects[first : first + _MOST_COLUMNS]
-        heads = ["", *(effect_title(e, case.language) for e in shown)]
+        heads = [_HEAD, *(effect_title(e, case.language) for e in shown)]
         rows = [
             [case.t("joints.joint", n=n), *(_cell(case, found, n, e) for e in shown)]
             for n in range(1, last + 1)
@@ -52,5 +55,5 @@ def _cell(case: Case, found: list[Finding], number: int, effect: str) -> str:
         mark = "".join(f"{sign}{f.where[k]} " for k, sign in _MARKS.items() if k in f.where)
         for p in f.parameters:
             name = f"{mark}{parameter_name(p.name, case.language)} " if several else mark
-            said.append(f"{name}{quantity(p, case.language)}")
+            said.append(f"{name}{quantity(p, case.language, marked=False)}")
     return "; ".join(said)
