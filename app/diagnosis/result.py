@@ -160,7 +160,6 @@ class Evidence:
         q: (m, n) joint positions as recorded [rad or m].
         drivers: label with unit, "gravity torque of joint 2 [Nm]" -> (m,) in that unit, what residuals can be
             plotted against.
-        T_instrument_base: (4, 4) where the base stands in the measuring frame, static recordings only.
         points_predicted_before: (m, 3) tool point in base, bare description [m]; static only.
         points_predicted_after: (m, 3) with the findings [m]; static only.
         points_measured: (m, 3) measured tool point brought into base [m]; static only.
@@ -182,7 +181,6 @@ class Evidence:
     q: np.ndarray
     drivers: Mapping[str, np.ndarray]
     kept: np.ndarray
-    T_instrument_base: np.ndarray | None = None
     points_predicted_before: np.ndarray | None = None
     points_predicted_after: np.ndarray | None = None
     points_measured: np.ndarray | None = None

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -21,7 +21,7 @@ from app.diagnosis.models.dynamic.commands import lag_findings
 from app.diagnosis.models.dynamic.hypothesis import as_given
 from app.diagnosis.models.dynamic.library import laws
 from app.diagnosis.models.dynamic.repeats import noise_of_repeats
-from app.diagnosis.models.dynamic.saved import Predicted, beside, hypothesis_of
+from app.diagnosis.models.dynamic.saved import beside, hypothesis_of
 from app.diagnosis.result import (
     UNNAMED,
     Alternative,
@@ -36,18 +36,6 @@ from app.diagnosis.thresholds.naming import CERTAIN, UNNAMED_SHARE
 from app.diagnosis.thresholds.naming_logs import CHANGE, HOPELESS, NAME, RIPPLES, SHARE
 from app.diagnosis.thresholds.noise import LEFT_P
 from app.diagnosis.wording import note
-
-
-@dataclass(frozen=True, eq=False)
-class Drafted:
-    """What is said of a fit, before it is put together."""
-
-    fitted: Fitted
-    before: np.ndarray
-    noise: Noise
-    members: list[Member]
-    effects: tuple[ModelEffect, ...]
-    whole: Predicted
 
 
 def build(fitted: Fitted, file: str, *, reference: Fitted | None = None) -> Diagnosis:
@@ -105,7 +93,7 @@ def build(fitted: Fitted, file: str, *, reference: Fitted | None = None) -> Diag
     return Diagnosis(
         file=file, kind="motion", robot=robot.name, samples=len(log.t), verdict=verdict, noise=noise,
         before=quality_before, after=quality_after, findings=findings,
-        outliers=tuple(int(r) for r in log.dropped), leftover=_leftover(fitted, found, structure, before),
+        outliers=tuple(int(r) for r in log.dropped), leftover=_leftover(fitted, found, structure),
         next_poses=poses, seconds=0.0, families=families, model=model.to_dict(),
         notes=(*_notes(fitted), *foreign, *advice),
         evidence=evidence_of(fitted, before, whole, effects),
@@ -252,7 +240,7 @@ def _with_members(
     )
 
 
-def _leftover(fitted: Fitted, found: list[Member], structure: bool, before: np.ndarray) -> Leftover:
+def _leftover(fitted: Fitted, found: list[Member], structure: bool) -> Leftover:
     study = fitted.study
     j = int(np.argmin(study.leftover_p))
     share = float(np.clip(sum(m.share for m in found if not m.named), 0.0, 1.0))

@@ -84,7 +84,7 @@ def members(
         weights = 0.0 * weights if held else solution.of(columns)[0]
         scale = study.design.scale[columns]
         in_all = _held(study, candidate) if held else weights
-        gain, statistic = _worth(study, g, columns, in_all, covariance)
+        gain, statistic = _worth(study, g, in_all, covariance)
         without = left + study.design.prediction(columns, in_all)
         share = float(np.clip((np.mean(without**2) - np.mean(left**2)) / total, 0.0, 1.0))
         p = float(min(1.0, chdtrc(len(columns), statistic) * len(study.evidence.groups)))
@@ -109,9 +109,7 @@ def members(
                 p, named, held,
             )
         )  # fmt: skip
-    return [
-        replace(m, named=m.named and not _shaped(study, m, out) and not _part_of_another(m, out)) for m in out
-    ]
+    return [replace(m, named=m.named and not _shaped(m, out) and not _part_of_another(m, out)) for m in out]
 
 
 def _part_of_another(member: Member, found: list[Member]) -> bool:
@@ -132,7 +130,7 @@ def _times(member: Member) -> tuple[float, float]:
     return float(where.get("from_s", -np.inf)), float(where.get("to_s", np.inf))
 
 
-def _shaped(study: Study, member: Member, found: list[Member]) -> bool:
+def _shaped(member: Member, found: list[Member]) -> bool:
     """True where an unnamed curve along the same driver of the joint explains a good part of it."""
     joint = member.candidate.place.where.get("joint")
     driver = member.candidate.place.where.get("driver", member.candidate.law.driver)
@@ -182,7 +180,7 @@ def _held(study: Study, candidate: Candidate) -> np.ndarray:
     return law.held(study.state.hypothesis, place) / law.widths(study.state, place)
 
 
-def _worth(study: Study, g: int, columns, weights, covariance) -> tuple[float, float]:
+def _worth(study: Study, g: int, weights: np.ndarray, covariance: np.ndarray) -> tuple[float, float]:
     """Evidence of a member [nats], and its Wald statistic."""
     prior = study.selection[g]
     values, vectors = np.linalg.eigh(covariance)

@@ -83,13 +83,10 @@ class KnownBefore(Law):
         )
 
 
-def known_from(fitted: Fitted, drift: float = DRIFT) -> KnownBefore:
+def known_from(fitted: Fitted) -> KnownBefore:
     """What a fitted log taught, all families asked for their values whether they were selected or not.
 
     Where structure is left, drive gains are not asked: they would bend to it, and masses with them.
-
-    Args:
-        drift: relative, of friction from that log to the next.
     """
     asked = fitted.asked
     chosen, left = dict(asked.selection), bool(fitted.left.any())
@@ -119,7 +116,7 @@ def known_from(fitted: Fitted, drift: float = DRIFT) -> KnownBefore:
     mean, covariance = weights * scale, covariance * scale[:, None] * scale
     for term in terms:
         if term.law.drifts:
-            covariance[term.part, term.part] += np.diag((drift * mean[term.part]) ** 2)
+            covariance[term.part, term.part] += np.diag((DRIFT * mean[term.part]) ** 2)
     return KnownBefore(tuple(terms), mean, covariance)
 
 

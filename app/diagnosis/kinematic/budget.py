@@ -9,7 +9,7 @@ from app.diagnosis.kinematic.description import Description
 from app.diagnosis.models.kinematic.saved import reach_of
 from app.diagnosis.models.kinematic.terms import Term
 from app.diagnosis.regression.heldout import folds_of, heldout_residuals
-from app.diagnosis.result import STATIC_FAMILIES, UNNAMED, FamilyShare, Finding
+from app.diagnosis.result import STATIC_FAMILIES, UNNAMED, FamilyShare
 from app.units import mm
 
 #: Of its nominal size: below, a part of a law is nothing.
@@ -186,7 +186,6 @@ def heldout_after(found: Description, kept: np.ndarray) -> dict[str, float]:
 def families(
     found: Description,
     parts: list[tuple[str, Term]],
-    findings: tuple[Finding, ...],
     family_of: list[str],
     after: dict[str, float],
     undone_share: float,

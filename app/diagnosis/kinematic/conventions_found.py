@@ -7,14 +7,11 @@ from app.diagnosis.kinematic.judging import Judgement, quality_of
 from app.diagnosis.kinematic.plain import plain_state
 from app.diagnosis.models.kinematic.terms import effects
 from app.diagnosis.observations.conventions import title_of
-from app.diagnosis.observations.pose_data import StaticRecording
 from app.diagnosis.result import Alternative, Finding
 from app.diagnosis.thresholds.naming import CERTAIN
 
 
-def convention_findings(
-    recording: StaticRecording, written: Written, judgement: Judgement
-) -> tuple[Finding, ...]:
+def convention_findings(written: Written, judgement: Judgement) -> tuple[Finding, ...]:
     """One finding a convention, with those that would do as well."""
     if not written.found:
         return ()

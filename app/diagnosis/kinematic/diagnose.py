@@ -101,7 +101,7 @@ def _concluded(
         ()
         if left.hopeless
         else (
-            *convention_findings(recording, written, judgement),
+            *convention_findings(written, judgement),
             *findings(found, names, judgement.after_quality.heldout_rms, seed),
         )
     )
@@ -202,9 +202,7 @@ def _families(
     conventions = len(said) - len(names)
     family_of = ["conventions"] * conventions + [found.library.fixed[n.number].effect.family for n in names]
     out = list(
-        budget.families(
-            found, parts, said, family_of, after, undone_share, plain.heldout_rms, left.noise_ratio
-        )
+        budget.families(found, parts, family_of, after, undone_share, plain.heldout_rms, left.noise_ratio)
     )
     unnamed = [f for f in out if f.family == UNNAMED]
     if left.structure and not unnamed and left.share > 0:

@@ -9,8 +9,8 @@ import numpy as np
 from app.diagnosis.effects.effect import Level
 from app.diagnosis.models.kinematic.candidates import library_of
 from app.diagnosis.models.kinematic.library import linearised
-from app.diagnosis.models.kinematic.rows import first_weights, t_likelihood, weighted_anew
-from app.diagnosis.models.kinematic.state import State, settled, started
+from app.diagnosis.models.kinematic.rows import compared, t_likelihood, weighted_anew
+from app.diagnosis.models.kinematic.state import State
 from app.diagnosis.observations.conventions import Convention, conventions, likelihood_of
 from app.diagnosis.observations.pose_data import StaticRecording
 from app.diagnosis.observations.pose_reading import renumbered
@@ -50,7 +50,7 @@ def rewritten(recording: StaticRecording, robot: RobotModel) -> Written:
     for _ in range(CONVENTIONS):
         keep = _thinned(recording)
         sample = _some(recording, keep)
-        plain = _plain(sample)
+        plain = _fitted(sample)
         if plain is None or plain.misfit < CONVENTION_MISFIT:
             break
         chosen = _best(recording, keep, plain, robot)
@@ -70,7 +70,7 @@ def _best(
     as_written = _likelihood(plain, sample)
     for convention in conventions(sample):
         apart = convention.needs_neighbours
-        state = _plain(_some(convention.placed(recording), keep) if apart else convention.placed(sample))
+        state = _fitted(_some(convention.placed(recording), keep) if apart else convention.placed(sample))
         if state is not None:
             gain = _likelihood(state, sample) - as_written
             if gain > CONVENTION:
@@ -100,17 +100,15 @@ def _plain_of(
 ) -> State | None:
     try:
         if convention.needs_neighbours:
-            return _plain(_some(convention.undone(recording, robot), keep))
-        return _plain(convention.undone(_some(recording, keep), robot))
+            return _fitted(_some(convention.undone(recording, robot), keep))
+        return _fitted(convention.undone(_some(recording, keep), robot))
     except (TeachframeError, np.linalg.LinAlgError):
         return None
 
 
-def _plain(recording: StaticRecording) -> State | None:
-    try:
-        return settled(started(recording, (), first_weights(recording)), _STEPS)
-    except (TeachframeError, np.linalg.LinAlgError):
-        return None
+def _fitted(recording: StaticRecording) -> State | None:
+    """Base, tool and touched points, well enough to tell a gross misfit from a small one."""
+    return compared(recording, (), _STEPS)
 
 
 def _likelihood(state: State, original: StaticRecording) -> float:

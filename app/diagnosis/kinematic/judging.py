@@ -15,7 +15,6 @@ from app.diagnosis.kinematic.plain import plain_state
 from app.diagnosis.model import SavedModel
 from app.diagnosis.models.kinematic.saved import fingerprint, held_terms, undone
 from app.diagnosis.models.kinematic.state import State, columns_of, free_columns, settled, started
-from app.diagnosis.models.kinematic.terms import Term
 from app.diagnosis.observations.pose_data import StaticRecording
 from app.diagnosis.regression.heldout import folds_of, heldout_residuals
 from app.diagnosis.result import Quality
@@ -116,8 +115,3 @@ def quality_of(state: State, kept: np.ndarray) -> Quality:
     held = held[np.isfinite(held)]
     fit = float(np.sqrt(np.mean(state.residual[counted] ** 2))) if counted.any() else 0.0
     return Quality(mm(fit), mm(float(np.sqrt(np.mean(held**2)))) if held.size else mm(fit), "mm")
-
-
-def model_terms(recording: StaticRecording, model: SavedModel) -> tuple[Term, ...]:
-    """The model's effects for these rows."""
-    return held_terms(model, recording.situation, fingerprint(recording))

@@ -12,12 +12,11 @@ from dataclasses import replace
 import numpy as np
 
 from app.diagnosis.models.kinematic.library import Candidate, Library, terms_from
-from app.diagnosis.models.kinematic.rows import first_weights, t_likelihood, weighted_anew
-from app.diagnosis.models.kinematic.state import State, settled, started, state_of
+from app.diagnosis.models.kinematic.rows import compared, t_likelihood, weighted_anew
+from app.diagnosis.models.kinematic.state import State, settled, state_of
 from app.diagnosis.thresholds.conventions import CONVENTION_MISFIT
 from app.diagnosis.thresholds.evidence import STEP
 from app.diagnosis.thresholds.rows import LEAST_ROWS
-from app.errors import TeachframeError
 from app.geometry import log_so3
 
 #: Rows tried first, spread over the recording; then those around the best, ever closer.
@@ -92,10 +91,7 @@ def _apart(plain: State, row: int) -> State | None:
     """Rows before `row`, and from it on, each with a set-up of their own."""
     recording = plain.recording
     two = replace(recording, session=(np.arange(recording.size) >= row).astype(int))
-    try:
-        return settled(started(two, plain.held, first_weights(two)), _STEPS)
-    except (TeachframeError, np.linalg.LinAlgError):
-        return None
+    return compared(two, plain.held, _STEPS)
 
 
 def _moved(plain: State, apart: State, candidate: Candidate, library: Library) -> State:

@@ -8,7 +8,6 @@ from app.diagnosis.kinematic.judging import Judgement
 from app.diagnosis.models.kinematic.state import State
 from app.diagnosis.observations.pose_data import StaticRecording
 from app.diagnosis.result import Evidence
-from app.geometry import Pose
 from app.units import deg
 
 
@@ -16,7 +15,6 @@ def evidence_of(recording: StaticRecording, judgement: Judgement) -> Evidence:
     """Measured and predicted of every row, outliers included."""
     before, after = judgement.before, judgement.after
     first = recording.session[0]
-    rotation, position = after.setup.rotations, after.setup.positions
     measured_base = _measured_in_base(recording, after)
     if recording.mode == "length":
         measured = recording.lengths[:, None]  # type: ignore[index]
@@ -37,7 +35,6 @@ def evidence_of(recording: StaticRecording, judgement: Judgement) -> Evidence:
         q=recording.q,
         drivers=drivers(recording),
         kept=judgement.kept,
-        T_instrument_base=Pose.of(rotation[first], position[first]).matrix,
         points_predicted_before=before.posed.points[:, 0],
         points_predicted_after=after.posed.points[:, 0],
         points_measured=measured_base,

@@ -107,7 +107,7 @@ def read_log(table: Table, robot: RobotModel) -> Log:
         qd = None
     if qd is not None:
         good &= np.isfinite(qd).all(1)
-    _refuse_if_few(good, rows, table, "broken", t, q, y)
+    _refuse_if_few(good, rows, table)
     left = np.flatnonzero(good)
     back = backwards_rows(t[left], rows[left], table)
     good[left[back]] = False
@@ -115,7 +115,7 @@ def read_log(table: Table, robot: RobotModel) -> Log:
     usable = slice(None) if good.all() else left  # a slice copies nothing
     wild = spikes(t[usable], q[usable], qd[usable] if qd is not None else None, y[usable], robot)
     good[left[wild]] = False
-    _refuse_if_few(good, rows, table, "broken", t, q, y)
+    _refuse_if_few(good, rows, table)
     dropped = rows[~good]
     if len(dropped):
         notes.append(note("rows_dropped", count=len(dropped), total=total, share=len(dropped) / total))
@@ -224,12 +224,13 @@ def _stated_noise(table: Table, n: int) -> np.ndarray | None:
     return noise if np.all(noise > 0) else None
 
 
-def _refuse_if_few(good, rows, table, what, t, q, y) -> None:
+def _refuse_if_few(good: np.ndarray, rows: np.ndarray, table: Table) -> None:
+    """Raises InputError where too few rows can be used."""
     if good.sum() >= max(FEWEST, (1.0 - MOST_BROKEN) * len(good)):
         return
     first = int(rows[np.flatnonzero(~good)[0]]) if not good.all() else None
     raise InputError(
-        f"{int((~good).sum())} of {len(good)} rows are {what} and {int(good.sum())} are left",
+        f"{int((~good).sum())} of {len(good)} rows are broken and {int(good.sum())} are left",
         file=table.path,
         row=first,
         expected=f"at least {FEWEST} usable rows, and most of the file",

@@ -38,7 +38,7 @@ def _read(table: Table, robot: RobotModel) -> StaticRecording:
     notes: list[str] = []
     measured = touched(table, notes) if table.kind == "touch" else tracked(table, notes)
     refuse_joints(table, robot, q)
-    refuse_measurements(table, measured.points, measured.lengths, measured.orientations)
+    refuse_measurements(table, measured.points, measured.lengths)
     notes += joint_notes(robot, q)
     m = len(q)
     session = _numbers(table, "session", m)

@@ -54,9 +54,7 @@ def joint_notes(robot: RobotModel, q: np.ndarray) -> list[str]:
     return notes
 
 
-def refuse_measurements(
-    table: Table, points: np.ndarray | None, lengths: np.ndarray | None, orientations: np.ndarray | None
-) -> None:
+def refuse_measurements(table: Table, points: np.ndarray | None, lengths: np.ndarray | None) -> None:
     """Measurements that never change, or lie where nothing measures.
 
     Raises:

@@ -87,7 +87,6 @@ def static_case(verdict: Verdict = "named", rows=60, seed=3):
                 "time [min]": np.arange(rows) * 0.5,
             },
             kept=kept,
-            T_instrument_base=np.eye(4),
             points_predicted_before=points,
             points_predicted_after=points + (off if found else 0),
             points_measured=points + off + noise,

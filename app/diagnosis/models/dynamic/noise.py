@@ -115,11 +115,6 @@ def over_all(found: Spectrum) -> Whitener:
     return Whitener(best.sigma * float(np.sqrt(max(louder, 1.0))), best.rho, best.theta)
 
 
-def above_the_band(found: Spectrum) -> Whitener:
-    """The process that explains the residual above the band of the motion best."""
-    return _best(found, np.where(found.low, 0.0, 1.0))
-
-
 def _best(found: Spectrum, weight: np.ndarray) -> Whitener:
     inverse, logs = _shapes(found.count, len(found.power))
     total = max(float(weight.sum()), 1.0)
@@ -165,14 +160,14 @@ def band_of(signals: np.ndarray, step: float) -> float:
     return float(np.clip(BAND_ABOVE * top, BAND[0], max(BAND[1] / step, BAND[0])))
 
 
-def without_spikes(residual: np.ndarray, width: int = 9) -> np.ndarray:
+def without_spikes(residual: np.ndarray) -> np.ndarray:
     """(M,) residual in which single values above their running median are drawn in; runs of them are structure.
 
     Beyond 4.5 robust standard deviations from the median a value is replaced by it, beyond 3.5 it is cut there.
     """
     from scipy.ndimage import median_filter
 
-    middle = median_filter(residual, width, mode="nearest")
+    middle = median_filter(residual, 9, mode="nearest")
     off = residual - middle
     spread = 1.4826 * float(np.median(np.abs(off))) + 1e-12
     return middle + np.where(np.abs(off) > 4.5 * spread, 0.0, np.clip(off, -3.5 * spread, 3.5 * spread))

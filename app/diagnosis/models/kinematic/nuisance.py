@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from app.diagnosis.models.kinematic.cell import Posed
 from app.diagnosis.models.kinematic.sensitivity import Sensitivity
 from app.diagnosis.models.kinematic.setup import Setup
 from app.diagnosis.observations.pose_data import StaticRecording
@@ -15,7 +14,7 @@ from app.geometry import nearest_rotation
 _ALTERNATIONS, _NEAR = 12, 1e-6
 
 
-def nuisance_columns(recording: StaticRecording, posed: Posed, columns: Sensitivity) -> np.ndarray:
+def nuisance_columns(recording: StaticRecording, columns: Sensitivity) -> np.ndarray:
     """(m, k, p) whitened, per session base 6 (draw-wire: 3), tool 3 a reflector (with orientation 3 more);
     for unknown targets tool 3 and 3 a target."""
     m, k = columns.weights.shape

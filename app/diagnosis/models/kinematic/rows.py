@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from app.diagnosis.models.kinematic.state import State
+from app.diagnosis.models.kinematic.state import State, settled, started
+from app.diagnosis.models.kinematic.terms import Term
 from app.diagnosis.observations.pose_data import StaticRecording
 from app.diagnosis.thresholds.rows import ALMOST, HEADROOM, OUTLIER_WEIGHT, ROBUST_DOF
+from app.errors import TeachframeError
 
 #: Median of a chi-square over its degrees of freedom, by degrees of freedom: for a robust first scale.
 _MEDIAN = {1: 0.455, 3: 0.789, 6: 0.891, 9: 0.927}
@@ -17,6 +19,14 @@ _FINEST = 1e-9
 def first_weights(recording: StaticRecording) -> np.ndarray:
     """(m, k) before any fit: 0.3 mm, and 1 mrad for measured orientation."""
     return recording.present * np.sqrt(recording.worth) / np.where(recording.angular, 1e-3, 3e-4)
+
+
+def compared(recording: StaticRecording, held: tuple[Term, ...], steps: int) -> State | None:
+    """A set-up fitted by a few steps, effects held, only to be compared with others; None where there is none."""
+    try:
+        return settled(started(recording, held, first_weights(recording)), steps)
+    except (TeachframeError, np.linalg.LinAlgError):
+        return None
 
 
 def row_weights(

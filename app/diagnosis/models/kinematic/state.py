@@ -148,7 +148,7 @@ def free_columns(state: State, columns: Sensitivity) -> tuple[np.ndarray, Absorb
     recording = state.recording
     n = state.weights.size
     if recording.mode != "targets":
-        return nuisance_columns(recording, state.posed, columns).reshape(n, -1), None
+        return nuisance_columns(recording, columns).reshape(n, -1), None
     label = recording.target[:, None] * 3 + np.arange(3)
     absorbed = Absorbed(label.reshape(-1), state.weights.reshape(-1))
     # measured = target - tool point, so the tool counts against what is measured in the other modes

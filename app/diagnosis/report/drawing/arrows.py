@@ -43,7 +43,7 @@ def arrow_plot(evidence: Evidence, view: tuple[int, int], *, after: bool, factor
         good = good[np.linspace(0, len(good) - 1, MOST_ARROWS).astype(int)]
     tail, head = mm(points[good][:, view]), mm((points + factor * residual)[good][:, view])
     kept = evidence.kept[good]
-    axes = _square(mm(points[good][:, view]), view)
+    axes = _square(mm(points[good][:, view]))
     names = ("x", "y", "z")
     arrows = [
         _heads(axes, tail[~kept], head[~kept], "stroke aside"),
@@ -70,7 +70,7 @@ def _residual(evidence: Evidence, *, after: bool) -> np.ndarray:
     return vectors
 
 
-def _square(points: np.ndarray, view: tuple[int, int]) -> Axes:
+def _square(points: np.ndarray) -> Axes:
     """Axes with the same scale both ways that hold the points."""
     left, top, width, height = 48.0, 22.0, WIDTH - 60.0, HEIGHT - 58.0
     low, high = points.min(0), points.max(0)

@@ -13,13 +13,13 @@ from app.diagnosis.result import Evidence
 WIDTH, LEFT, RIGHT, BAR, GAP = 680.0, 60.0, 60.0, 15.0, 6.0
 
 
-def joint_bars(evidence: Evidence, *, width: float = WIDTH) -> str:
+def joint_bars(evidence: Evidence) -> str:
     """Bars of the rms error before [Nm], divided in the order of the families; "" where no parts are known."""
     if not evidence.parts:
         return ""
     amounts = [_amounts(evidence, k) for k in range(evidence.before.shape[1])]
     top = max(sum(a for _, a in joint) for joint in amounts) or 1.0
-    scale = (width - LEFT - RIGHT) / top
+    scale = (WIDTH - LEFT - RIGHT) / top
     out = []
     for k, joint in enumerate(amounts):
         y = 4 + k * (BAR + GAP)
@@ -30,7 +30,7 @@ def joint_bars(evidence: Evidence, *, width: float = WIDTH) -> str:
             x += amount * scale
         total = sum(a for _, a in joint)
         out.append(svg.text(x + 5, y + BAR - 4, f"{digits(total, 2)} Nm", klass="value"))
-    return svg.picture(width, 4 + len(amounts) * (BAR + GAP), out, "torque error of each joint by family")
+    return svg.picture(WIDTH, 4 + len(amounts) * (BAR + GAP), out, "torque error of each joint by family")
 
 
 def _amounts(evidence: Evidence, joint: int) -> list[tuple[str, float]]:
