@@ -8,7 +8,6 @@ import numpy as np
 
 from app.diagnosis.dynamic.fitting import Fitted
 from app.diagnosis.dynamic.names import Member
-from app.diagnosis.dynamic.saving import undone
 from app.diagnosis.dynamic.solution import error_with, heldout_without
 from app.diagnosis.model import ModelEffect
 from app.diagnosis.models.dynamic.hypothesis import Hypothesis, as_given
@@ -28,6 +27,7 @@ def budget(
     take_as,
     found: Sequence[Member],
     after: Quality,
+    read_as: Sequence[ModelEffect],
 ) -> tuple[FamilyShare, ...]:
     """The families that have a share, in order; the last one's error is that of the whole result.
 
@@ -39,6 +39,7 @@ def budget(
         take_as: hypothesis -> samples.
         found: the selected laws with their columns.
         after: errors of the whole result.
+        read_as: mounting, delay and factors as the fit holds them.
     """
     used = whole.samples.used
     least = _ms(whole.residual, used)
@@ -67,7 +68,11 @@ def budget(
     told = [f for f in present if shares[f] >= LEAST or f in named]
     for k, family in enumerate(told):
         last = k == len(told) - 1
-        left = after.heldout_rms if last else _left(fitted, effects, found, told[: k + 1], samples_under)
+        left = (
+            after.heldout_rms
+            if last
+            else _left(fitted, effects, found, told[: k + 1], samples_under, read_as)
+        )
         out.append(FamilyShare(family, shares[family], left, ()))
     return tuple(out)
 
@@ -78,12 +83,13 @@ def _left(
     found: Sequence[Member],
     kept: Sequence[str],
     samples_under,
+    read_as: Sequence[ModelEffect],
 ) -> float:
     """Held-out error [Nm] of some families alone, everything linear in them refitted."""
     joints, study = fitted.robot.joint_count, fitted.study
     in_kept = lambda e: laws()[e.effect].family in kept  # noqa: E731
     learnt = () if fitted.prior is None else fitted.prior.effects()
-    read = [e for e in (*fitted.given, *undone(fitted, [])) if e not in learnt and in_kept(e)]
+    read = [e for e in (*fitted.given, *read_as) if e not in learnt and in_kept(e)]
     read += [e for e in effects if laws()[e.effect].whole_log and in_kept(e)]
     hypothesis = hypothesis_of([*read, *learnt], joints) if read or learnt else as_given(joints)
     own = study.state.hypothesis

@@ -6,8 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from app.diagnosis.dynamic.labels import label
-from app.diagnosis.models.dynamic.library import nominal
+from app.diagnosis.models.dynamic.library import label, nominal
 from app.diagnosis.regression.evidence import Selection
 from app.diagnosis.thresholds.evidence import SMALL_FACTOR
 

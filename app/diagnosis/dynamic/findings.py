@@ -9,10 +9,9 @@ import numpy as np
 from app.diagnosis.dynamic.budget import budget
 from app.diagnosis.dynamic.fitting import Fitted
 from app.diagnosis.dynamic.loads import told_as_load
-from app.diagnosis.dynamic.names import Member, members, rivals, waves
+from app.diagnosis.dynamic.names import Member, differs, members, rivals, waves
 from app.diagnosis.dynamic.next_motion import next_motion
 from app.diagnosis.dynamic.pictures import evidence_of
-from app.diagnosis.dynamic.reference import differs
 from app.diagnosis.dynamic.saving import effect_of, given_effects, readings, taught, undone
 from app.diagnosis.dynamic.shapes import spread_of
 from app.diagnosis.dynamic.solution import error_with, heldout_without, surprise
@@ -60,7 +59,9 @@ def build(fitted: Fitted, file: str, *, reference: Fitted | None = None) -> Diag
     quality_after = _quality(study.samples.within, whole.residual, heldout, used)
     named = sorted((m for m in found if m.named), key=lambda m: -m.share)
     if reference is not None:
-        named = [m for m in named if m.held or (_changes(fitted, m, quality_after) and differs(reference, m))]
+        named = [
+            m for m in named if m.held or (_changes(fitted, m, quality_after) and differs(reference.asked, m))
+        ]
     late = _lags(fitted, named)
     take_as = lambda h: study.samples if h is study.state.hypothesis else fitted.take(h)  # noqa: E731
     findings = (
@@ -72,7 +73,15 @@ def build(fitted: Fitted, file: str, *, reference: Fitted | None = None) -> Diag
         *late,
     )
     families = budget(
-        fitted, effects, whole, before, noise.value**2 / study.samples.window, take_as, found, quality_after
+        fitted,
+        effects,
+        whole,
+        before,
+        noise.value**2 / study.samples.window,
+        take_as,
+        found,
+        quality_after,
+        undone(fitted, []),
     )
     poses, advice = next_motion(fitted, named) if findings else ((), ())
     families = _with_members(families, findings)

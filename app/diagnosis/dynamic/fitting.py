@@ -11,7 +11,6 @@ import numpy as np
 from app.diagnosis.dynamic.conventions import Reading
 from app.diagnosis.dynamic.crossed import by_prediction
 from app.diagnosis.dynamic.families import completed
-from app.diagnosis.dynamic.labels import identity
 from app.diagnosis.dynamic.shapes import Tangent, add_tangents
 from app.diagnosis.dynamic.solution import Solution, solve
 from app.diagnosis.dynamic.study import Study
@@ -122,7 +121,7 @@ def fit(
         left = (asked.leftover_p < LEFT_P) & (asked.leftover_ratio > LEFT_RATIO)
         if prior is None and not left.any():  # with structure left, gains would bend to it
             asked.selection = completed(asked)
-        study, before = asked, {identity(asked.label(g)) for g in asked.selection}
+        study, before = asked, {asked.label(g).identity for g in asked.selection}
         hypothesis, moved = _settled(study, hypothesis, taken)
         start = [asked.label(g) for g in asked.selection]
         if not moved or (k and kept >= before - {("", 0)}):

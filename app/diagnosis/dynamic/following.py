@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from app.diagnosis.dynamic.labels import label
+from app.diagnosis.models.dynamic.library import label
 
 if TYPE_CHECKING:
     from app.diagnosis.dynamic.study import Study

@@ -232,3 +232,24 @@ def _same_place(a: Candidate, b: Candidate) -> bool:
     if not here or not there:  # of the whole arm: a load and the last link's masses are one place
         return True
     return here == there
+
+
+def differs(study: Study, member: Member) -> bool:
+    """Is a law another one than in a reference log, or was it there, only too small in that motion to be taken?
+
+    The reference is asked for its values beside all it has; they differ where the Wald statistic of the difference
+    is that of a finding. What was taken for part of the description is a change as such.
+    """
+    law, place = member.candidate.law, member.candidate.place
+    there = [study.label(g) for g in study.selection]
+    had = any(c.law is law and (c.whole or c.place.where == place.where) for c in there)
+    if had or law.windowed or law.carried or (law.whole and law.lasting):
+        return True
+    g = study.add(law, place)
+    columns = study.group(g).columns
+    weights, covariance = study.evidence.posterior({**study.selection, g: 1.0}).of(columns)
+    scale = study.design.scale[columns]
+    apart = member.values - weights * scale
+    both = member.covariance + covariance * scale[:, None] * scale
+    needed = MEMBER_WALD + MEMBER_WALD_PARAMETER * (len(columns) - 1)
+    return float(apart @ np.linalg.pinv(both) @ apart) > needed

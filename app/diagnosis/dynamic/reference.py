@@ -16,18 +16,15 @@ import numpy as np
 
 from app.diagnosis.dynamic.families import families
 from app.diagnosis.dynamic.fitting import Fitted
-from app.diagnosis.dynamic.labels import label
-from app.diagnosis.dynamic.names import Member
 from app.diagnosis.dynamic.solution import solve
 from app.diagnosis.dynamic.study import Study
 from app.diagnosis.effects.dynamic._law import WIDTH, Law, Torques
 from app.diagnosis.effects.effect import Place, Quantity
 from app.diagnosis.model import ModelEffect
-from app.diagnosis.models.dynamic.library import Candidate, nominal
+from app.diagnosis.models.dynamic.library import Candidate, label, nominal
 from app.diagnosis.models.dynamic.state import State
 from app.diagnosis.result import UNNAMED
 from app.diagnosis.thresholds.evidence import DRIFT
-from app.diagnosis.thresholds.naming import MEMBER_WALD, MEMBER_WALD_PARAMETER
 
 KEY = "known_before"
 
@@ -99,7 +96,7 @@ def known_from(fitted: Fitted) -> KnownBefore:
             chosen[g] = nominal(asked.group(g))
     before = asked.selection
     asked.selection = chosen  # what was so once stays in beside the rest, or its torque would bend what lasts
-    study = Study(fitted.study.samples, stretch=asked.stretch, known=asked_known(fitted), like=asked)
+    study = Study(fitted.study.samples, stretch=asked.stretch, known=fitted.study.known, like=asked)
     asked.selection = before
     held = [g for g in study.selection if study.label(g).held]
     solution = solve(study, plain=left, held=held, gains=False)
@@ -124,32 +121,6 @@ def _tells(candidate: Candidate) -> bool:
     """True for what another log of the arm has too: no event, no rest, no course of time without a name."""
     named_time = candidate.law.family == UNNAMED and candidate.place.where.get("driver") == "time"
     return candidate.law.lasting and not candidate.law.windowed and not named_time
-
-
-def differs(reference: Fitted, member: Member) -> bool:
-    """Is a law another one than in the reference log, or was it there, only too small in that motion to be taken?
-
-    The reference is asked for its values beside all it has; they differ where the Wald statistic of the difference
-    is that of a finding. What was taken for part of the description is a change as such.
-    """
-    law, place, study = member.candidate.law, member.candidate.place, reference.asked
-    there = [study.label(g) for g in study.selection]
-    had = any(c.law is law and (c.whole or c.place.where == place.where) for c in there)
-    if had or law.windowed or law.carried or (law.whole and law.lasting):
-        return True
-    g = study.add(law, place)
-    columns = study.group(g).columns
-    weights, covariance = study.evidence.posterior({**study.selection, g: 1.0}).of(columns)
-    scale = study.design.scale[columns]
-    apart = member.values - weights * scale
-    both = member.covariance + covariance * scale[:, None] * scale
-    needed = MEMBER_WALD + MEMBER_WALD_PARAMETER * (len(columns) - 1)
-    return float(apart @ np.linalg.pinv(both) @ apart) > needed
-
-
-def asked_known(fitted: Fitted) -> np.ndarray | None:
-    """(M, n) torque that was taken for part of the description."""
-    return fitted.study.known
 
 
 def _members(study: Study, held: list[int]):

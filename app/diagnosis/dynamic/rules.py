@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import NamedTuple
 
-from app.diagnosis.dynamic.labels import label
-from app.diagnosis.models.dynamic.library import Candidate
+from app.diagnosis.models.dynamic.library import Candidate, label
 from app.diagnosis.regression.evidence import Evidence
 
 

@@ -11,13 +11,12 @@ from app.diagnosis.dynamic.bending import bend, reshape
 from app.diagnosis.dynamic.events import Events
 from app.diagnosis.dynamic.families import families
 from app.diagnosis.dynamic.following import follow_load
-from app.diagnosis.dynamic.labels import fresh, identity, label, place_key
 from app.diagnosis.dynamic.rules import Rules
 from app.diagnosis.dynamic.sharpness import learnt_widths
 from app.diagnosis.effects.dynamic._law import Law
 from app.diagnosis.effects.effect import Place
 from app.diagnosis.models.dynamic.design import TorqueDesign
-from app.diagnosis.models.dynamic.library import NOTHING, Candidate, build, group_of
+from app.diagnosis.models.dynamic.library import NOTHING, Candidate, build, group_of, label
 from app.diagnosis.models.dynamic.noise import (
     Whitener,
     band_of,
@@ -94,7 +93,7 @@ class Study:
             self.design, self.state, without=self.without, stretch=self.stretch, single=self.single
         )
         self.evidence.groups.extend(groups)
-        self.evidence.kept = {g for g, group in enumerate(groups) if identity(label(group)) in self.kept}
+        self.evidence.kept = {g for g, group in enumerate(groups) if label(group).identity in self.kept}
         if self.prior is not None:
             self.evidence.kept.add(self.add(self.prior, Place({})))
         self.band = band_of(np.hstack([samples.description, samples.state.qd]), samples.step)
@@ -111,7 +110,7 @@ class Study:
             if candidate.whole:
                 wanted += like.inside(g)
             else:
-                wanted.append(Candidate(candidate.law, fresh(candidate, self.state), candidate.needs))
+                wanted.append(Candidate(candidate.law, candidate.fresh(self.state), candidate.needs))
             plan.append((g, gamma, slice(first, len(wanted))))
         numbers = self.add_all(wanted, like.stretch)
         for g, gamma, part in plan:
@@ -244,13 +243,10 @@ class Study:
 
     def _found(self, start: Sequence[Candidate]) -> Selection:
         """Groups for laws at places; those that are not in the library (events, bent shapes) are made."""
-        at = {
-            (label(g).law.key, label(g).whole, place_key(label(g).place)): i
-            for i, g in enumerate(self.evidence.groups)
-        }
+        at = {label(g).seat: i for i, g in enumerate(self.evidence.groups)}
         out: Selection = {}
         for c in start:
-            own = at.get((c.law.key, c.whole, place_key(c.place)))
+            own = at.get(c.seat)
             out[self.add(c.law, c.place, c.needs) if own is None else own] = 1.0
         return out
 

@@ -10,7 +10,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from app.diagnosis.kinematic.orientation import positions_of
 from app.diagnosis.kinematic.plain import plain_state
 from app.diagnosis.model import SavedModel
 from app.diagnosis.models.kinematic.saved import fingerprint, held_terms, undone
@@ -53,8 +52,8 @@ def judged(
     Raises:
         InputError, DegenerateGeometryError: the recording cannot be used.
     """
-    told = positions_of(undone(model, recording, robot))
-    recording = positions_of(recording)
+    told = undone(model, recording, robot).by_points()
+    recording = recording.by_points()
     rows = fingerprint(recording)
     terms = held_terms(model, told.situation, rows)
     robust, weight = plain_state(told, terms)

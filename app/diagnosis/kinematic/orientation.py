@@ -22,13 +22,6 @@ from app.diagnosis.regression.evidence import Evidence
 from app.diagnosis.thresholds.noise import CHANCE
 
 
-def positions_of(recording: StaticRecording) -> StaticRecording:
-    """The recording by its points alone, where it has any: what errors in mm are said of."""
-    if recording.orientations is None or recording.points is None:
-        return recording
-    return replace(recording, orientations=None)
-
-
 def with_worth(recording: StaticRecording, held: tuple[Term, ...]) -> StaticRecording:
     """The recording with the number of independent measurements that one measured angle counts for.
 

@@ -133,6 +133,11 @@ class StaticRecording:
         )
         return replace(self, situation=situation)
 
+    def by_points(self) -> StaticRecording:
+        """The recording by its points alone, where it has any: what errors in mm are said of."""
+        measured = self.orientations is not None and self.points is not None
+        return replace(self, orientations=None) if measured else self
+
     def subset(self, keep: np.ndarray) -> StaticRecording:
         """The rows where `keep` (m,) is True; numbers of sessions, poses and targets stay what they were."""
         changed = {f.name: _cut(getattr(self, f.name), keep) for f in fields(self) if f.name in _PER_ROW}

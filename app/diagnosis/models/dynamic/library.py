@@ -41,8 +41,35 @@ class Candidate:
         return self.law.undone and not self.whole and self.place.alone
 
     @property
+    def identity(self) -> tuple[str, int]:
+        """Key and joint of a law that is undone, 0 for the whole arm; of others empty."""
+        return (self.law.key, int(self.place.where.get("joint", 0))) if self.held else ("", 0)
+
+    @property
+    def seat(self) -> tuple:
+        """Law, where, and the form; what a hypothesis holds already is no part of it."""
+        fixed = self.place.fixed
+        form = sorted((k, v) for k, v in fixed.items() if not k.startswith("fixed_"))
+        where = sorted(self.place.where.items())
+        return self.law.key, self.whole, tuple(where), tuple(form), fixed.get("fixed_sense")
+
+    def fresh(self, state: State) -> Place:
+        """The place; of a law that is undone with what the hypothesis now holds of it."""
+        if self.law.undone:
+            for place in self.law.places(state):
+                if place.where == self.place.where:
+                    return place
+        return self.place
+
+    @property
     def name(self) -> str:
         return f"{self.law.key} {self.place.where.get('joint', self.place.where.get('link', ''))}".rstrip()
+
+
+def label(group: Group) -> Candidate:
+    """What a group is."""
+    assert isinstance(group.label, Candidate)
+    return group.label
 
 
 def laws() -> dict[str, Law]:
