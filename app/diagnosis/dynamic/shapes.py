@@ -73,5 +73,6 @@ def spread_of(
     for g, tangent in bends.items():
         if tangent.law is law and tangent.place.where == place.where and tangent.place.fixed == place.fixed:
             _, covariance = loose.of(study.group(g).columns)
-            out[tangent.name] = float(np.sqrt(covariance[0, 0])) * place.fixed[tangent.name]
+            spread = float(np.hypot(np.sqrt(covariance[0, 0]), law.rough.get(tangent.name, 0.0)))
+            out[tangent.name] = spread * place.fixed[tangent.name]
     return out

@@ -107,6 +107,7 @@ class Effect(ABC, Generic[Situation, Columns, Cell]):
         undone: True where it is taken out of the recording before anything is fitted (a convention, a delay).
         lasting: False for events of one recording, which a model does not carry to another.
         moves_base: True where it puts the whole base elsewhere, however far.
+        no_words: why a description of rigid bodies has none for it, where its name does not say that.
         located_by: keys of `where` that its place has to name; empty where it may stand for the whole arm.
     """
 
@@ -124,6 +125,7 @@ class Effect(ABC, Generic[Situation, Columns, Cell]):
     undone: bool = False
     lasting: bool = True
     moves_base: bool = False
+    no_words: str = ""
     located_by: ClassVar[Sequence[str]] = ()
 
     @abstractmethod

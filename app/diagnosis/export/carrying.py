@@ -35,7 +35,7 @@ def carried(robot: RobotModel, model: SavedModel) -> SimArm:
             continue
         after = _put(arm, changes) if changes and not _passing(effect) else None
         if after is None:
-            left.append(left_of(effect))
+            left.append(left_of(effect, _lacking(model.kind, effect)))
         else:
             arm = after
             left += _turn(changes)
@@ -54,6 +54,12 @@ def _said(robot: RobotModel, kind: str, effect: ModelEffect) -> tuple[Change, ..
     """An effect in the words of a description; () where there are none for it."""
     law = effects.named(effect.effect, kind)
     return () if law is None else law.described(robot, effect.where, effect.parameters)
+
+
+def _lacking(kind: str, effect: ModelEffect) -> str:
+    """Why a description of rigid bodies has no words for it, where the effect says so."""
+    law = effects.named(effect.effect, kind)
+    return "" if law is None else law.no_words
 
 
 def _moves(changes: tuple[Change, ...]) -> bool:

@@ -44,6 +44,7 @@ class Law(Effect[State, State, np.ndarray]):
         least_joints: an arm with fewer has no such thing.
         blunt: True where the direction of dry friction is in it: its sharpness is saved along.
         bent: shape value -> nepers to either side within which the fit may bend it.
+        rough: shape value -> share of it by which the law's own simplifications may miss it.
         clashes: keys of laws that it is never in together with where it acts on the whole arm: no log tells them.
         contains: key of a law on the same joint whose columns this one has too: the two are never in together.
         series: True where several of them add up on a joint; more of those than a few are a curve, and no law.
@@ -81,6 +82,7 @@ class Law(Effect[State, State, np.ndarray]):
     least_joints = 1
     blunt = False
     bent: ClassVar[Mapping[str, float]] = {}
+    rough: ClassVar[Mapping[str, float]] = {}
     clashes: ClassVar[Sequence[str]] = ()
     contains = ""
     series = False

@@ -10,9 +10,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from app.diagnosis.models.dynamic.every_sample import EverySample, moved
 from app.diagnosis.models.dynamic.hypothesis import Hypothesis
 from app.diagnosis.models.dynamic.smoothing import Motion
-from app.diagnosis.models.dynamic.spline import hermite
 from app.diagnosis.models.dynamic.state import State
 from app.diagnosis.observations.joint_log import Log
 from app.diagnosis.thresholds.friction import SHARP, STILL
@@ -106,7 +106,8 @@ def _read(log: Log, alike: Samples, hypothesis: Hypothesis) -> Samples:
     """Windows of the same motion, their torques read otherwise."""
     y = _torques(log, alike.first, alike.window, hypothesis)
     pooled, rigid = y.mean(axis=1), alike.state.torque
-    state = replace(alike.state, hypothesis=hypothesis, size=_size(rigid, pooled))
+    every = None if alike.state.every is None else replace(alike.state.every, hypothesis=hypothesis)
+    state = replace(alike.state, hypothesis=hypothesis, size=_size(rigid, pooled), every=every)
     used = alike.unspiked & (np.ptp(pooled, axis=0) > 0)
     return replace(alike, state=state, y=pooled, used=used, within=_within(y, rigid))
 
@@ -128,7 +129,7 @@ def take(log: Log, robot: RobotModel, motion: Motion, hypothesis: Hypothesis, *,
     # (M, w, n) each: a long log has hundreds of samples for each that a window needs.
     q, qd, qdd = (
         hypothesis.motion(values.reshape(-1, values.shape[-1]), order).reshape(*index.shape, -1)
-        for order, values in enumerate(_moved(log, motion, index, hypothesis))
+        for order, values in enumerate(moved(log, motion, index, hypothesis))
     )
     at = _points(first, window) - np.repeat(first, 1 if window == 1 else 2)
     points = 1 if window == 1 else 2
@@ -164,6 +165,7 @@ def take(log: Log, robot: RobotModel, motion: Motion, hypothesis: Hypothesis, *,
         width=np.maximum(SHARP, motion.speed_noise), still=STILL * np.maximum(SHARP, motion.speed_noise),
         size=_size(rigid, pooled),
         link_mass=mass, link_size=size,
+        every=EverySample(log, robot, motion, hypothesis, nominal, first, window),
     )  # fmt: skip
     wide = float(np.median(np.diff(t))) if len(t) > 1 else log.step
     alive = np.ptp(pooled, axis=0) > 0
@@ -239,36 +241,3 @@ def _between(values: np.ndarray, at: np.ndarray) -> np.ndarray:
 
 def _halves(values: np.ndarray) -> np.ndarray:
     return 0.5 * (values[::2] + values[1::2])
-
-
-def _moved(
-    log: Log, motion: Motion, index: np.ndarray, hypothesis: Hypothesis
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Recorded position, speed and acceleration (M, w, n) at the samples `index` (M, w), or as much earlier as torques
-    are late, by cubics with the known slopes."""
-    if not hypothesis.delay:
-        return motion.q[index], motion.qd[index], motion.qdd[index]
-    t = log.t
-    first = np.array([s.start for s in log.segments])
-    last = np.array([s.stop for s in log.segments]) - 1
-    run = (np.searchsorted(first, index[:, 0], side="right") - 1)[:, None]  # across a gap nothing is known
-    wanted = np.clip(t[index] - hypothesis.delay / hypothesis.clock, t[first][run], t[last][run])
-    low = np.clip(np.searchsorted(t, wanted, side="right") - 1, 0, len(t) - 2)
-    width = (t[low + 1] - t[low])[..., None]
-    share = (wanted - t[low])[..., None] / width
-    ends = low, low + 1
-    parts = []
-    for value, slope in ((motion.q, motion.qd), (motion.qd, motion.qdd), (motion.qdd, None)):
-        rates = [_slope(motion.qdd, t, at) if slope is None else slope[at] for at in ends]
-        parts.append(hermite(value[low], value[low + 1], rates[0] * width, rates[1] * width, share))
-    return parts[0], parts[1], parts[2]
-
-
-def _slope(values: np.ndarray, t: np.ndarray, at: np.ndarray) -> np.ndarray:
-    """Slope of values (m, n) over t (m,) at some samples, through the neighbours on either side."""
-    before, after = np.maximum(at - 1, 0), np.minimum(at + 1, len(t) - 1)
-    back, on = (t[at] - t[before])[..., None], (t[after] - t[at])[..., None]
-    with np.errstate(divide="ignore", invalid="ignore"):
-        left, right = (values[at] - values[before]) / back, (values[after] - values[at]) / on
-    inner = (right * back + left * on) / (back + on)
-    return np.where(back == 0.0, right, np.where(on == 0.0, left, inner))

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from app.diagnosis.models.dynamic.every_sample import EverySample
 from app.diagnosis.models.dynamic.hypothesis import Hypothesis
 
 
@@ -33,6 +34,7 @@ class State:
         still: (n,) [rad/s or m/s] speed that cannot be told from standstill.
         size: (n,) root mean square of the torque, what is small or large on this joint [Nm or N].
         link_mass: (n,) [kg] and link_size: (n,) [m] of the description: what is small or large for a link.
+        every: the log sample by sample, or None where there is none.
     """
 
     hypothesis: Hypothesis
@@ -57,6 +59,7 @@ class State:
     size: np.ndarray
     link_mass: np.ndarray
     link_size: np.ndarray
+    every: EverySample | None = None
     memory: dict = field(default_factory=dict, repr=False)
 
     @property

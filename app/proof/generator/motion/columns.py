@@ -91,11 +91,14 @@ def term_columns(thin: Thin, terms: Sequence[Term], term: Term) -> np.ndarray:
     """(m n, k) a term's strengths, one column each, on top of `terms`; shapes (a speed, an order) held."""
     names = [name for name in term.parameters if name not in SHAPES]
     base = thin.reading(terms)
+    if term.effect in ALL_SHAPE:
+        return (thin.reading([*terms, term]) - base)[:, None]
     columns = [(thin.reading([*terms, _only(term, name)]) - base) / STEP for name in names]
     return np.stack(columns, axis=1) if columns else np.zeros((base.size, 0))
 
 
 SHAPES = ("stribeck_speed", "order", "time_constant")
+ALL_SHAPE = ("elastic_joint",)  # no strength of its own: the whole of it is one column
 STEP = 1e-3  # Nm, kg, s …: small against every curve, large against rounding
 
 

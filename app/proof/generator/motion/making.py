@@ -49,6 +49,7 @@ class MotionPlan:
         stale: share of samples that repeat the one before.
         gaps: how many pieces of a few samples are missing.
         staircase: step of the recorded speed [rad/s]; 0 for none.
+        brisk: the motion goes in short hard moves from stop to stop; so it does where an effect needs that to show.
     """
 
     samples: int = 4000
@@ -69,6 +70,7 @@ class MotionPlan:
     stale: float = 0.0
     gaps: int = 0
     staircase: float = 0.0
+    brisk: bool = False
 
 
 @dataclass(frozen=True, eq=False)
@@ -115,6 +117,8 @@ def make_motion(
     Raises:
         InputError: an effect that this arm or log cannot carry.
     """
+    wanted = {law_of(one.effect) for one in (*requests, *held)}
+    plan = replace(plan, brisk=plan.brisk or any(getattr(law, "brisk", False) for law in wanted))
     cell = draw_motion_cell(plan, arm, described, rng)
     rated = np.where(arm.effort > 0, arm.effort, RATED)
     sigma = plan.noise * rated
@@ -132,7 +136,7 @@ def make_motion(
 def draw_motion_cell(plan: MotionPlan, arm: Arm, described: Arm, rng: np.random.Generator) -> Motion:
     """A motion without effects."""
     m = plan.samples
-    path = draw_path(arm, m / plan.rate, rng, repeats=plan.repeats)
+    path = draw_path(arm, m / plan.rate, rng, repeats=plan.repeats, brisk=plan.brisk)
     t = np.arange(m) / plan.rate
     if plan.jitter:
         t = t + plan.jitter / plan.rate * rng.uniform(-0.5, 0.5, m)

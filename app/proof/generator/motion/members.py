@@ -28,6 +28,7 @@ FAMILY_OF = {
     "joint_spring": "load",
     "torque_constant": "drive",
     "torque_ripple": "drive",
+    "elastic_joint": "drive",
     "delay": "timing",
     "joint_coupling": "couplings",
     "contact": "events",

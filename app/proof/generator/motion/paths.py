@@ -12,6 +12,8 @@ from app.proof.generator.static.poses import comfortable
 SPEED = 0.75  # of a joint's limit
 RATED_SPEED = 2.0  # rad/s where a description states none
 SOFT = 6.0  # rad/s^2, a usual peak acceleration
+HARD = 15.0  # rad/s^2, that of a light arm in a hurry
+FAR, SHORT = 0.35, 0.12  # of a joint's range, the way from stop to stop at most
 FLOOR = -0.05  # m
 
 
@@ -65,8 +67,13 @@ class StopPath:
         return self.stops[move] + place[:, None] * way, rate[:, None] * way, change[:, None] * way
 
 
-def draw_path(arm: Arm, seconds: float, rng: np.random.Generator, *, repeats: bool) -> FourierPath | StopPath:
-    """A trajectory within limits of place and speed; `repeats` runs the same period twice over."""
+def draw_path(
+    arm: Arm, seconds: float, rng: np.random.Generator, *, repeats: bool, brisk: bool = False
+) -> FourierPath | StopPath:
+    """A trajectory within limits of place and speed; `repeats` runs the same period twice over, `brisk` goes in
+    short hard moves from stop to stop."""
+    if brisk:
+        return _stops(arm, seconds, rng, HARD, SHORT)
     if rng.random() < 0.7 or repeats:
         return _fourier(arm, seconds / 2.0 if repeats else rng.uniform(0.45, 1.0) * seconds, rng)
     return _stops(arm, seconds, rng)
@@ -101,15 +108,18 @@ def _fourier(arm: Arm, period: float, rng: np.random.Generator) -> FourierPath:
     return path
 
 
-def _stops(arm: Arm, seconds: float, rng: np.random.Generator) -> StopPath:
+def _stops(
+    arm: Arm, seconds: float, rng: np.random.Generator, peak: float = SOFT, far: float = FAR
+) -> StopPath:
     low, high, top, soft = _limits(arm)
+    soft = soft * peak / SOFT
     stops, leave, last, now = [rng.uniform(low, high)], [], [], 0.0
     while now < seconds:
-        goal = _next_stop(stops[-1], low, high, rng)
+        goal = _next_stop(stops[-1], low, high, rng, far)
         for _ in range(40):
             if _above_floor(arm, goal[None]):
                 break
-            goal = _next_stop(stops[-1], low, high, rng)
+            goal = _next_stop(stops[-1], low, high, rng, far)
         way = np.abs(goal - stops[-1])
         # peaks of a fifth-order move: 1.875 of the mean speed, 5.774 of way over time squared
         need = max(float((1.875 * way / top).max()), float(np.sqrt(5.774 * way / soft).max()), 0.3)
@@ -121,9 +131,11 @@ def _stops(arm: Arm, seconds: float, rng: np.random.Generator) -> StopPath:
     return StopPath(np.array(stops), np.array(leave), np.array(last))
 
 
-def _next_stop(stop: np.ndarray, low: np.ndarray, high: np.ndarray, rng: np.random.Generator) -> np.ndarray:
-    """A stop up to a third of each joint's range away."""
-    return np.clip(stop + rng.uniform(-0.35, 0.35, len(stop)) * (high - low), low, high)
+def _next_stop(
+    stop: np.ndarray, low: np.ndarray, high: np.ndarray, rng: np.random.Generator, far: float
+) -> np.ndarray:
+    """A stop up to a share `far` of each joint's range away."""
+    return np.clip(stop + rng.uniform(-far, far, len(stop)) * (high - low), low, high)
 
 
 def _above_floor(arm: Arm, q: np.ndarray) -> bool:

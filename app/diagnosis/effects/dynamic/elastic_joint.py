@@ -1,0 +1,112 @@
+"""A joint that twists: behind the motor the link swings on a spring with a damper, and the motor feels it.
+
+The recorded angle is the motor's, as that of most arms is. Where the link would take the torque u if it were fixed to
+the motor, the spring carries
+
+    stiffness x + damping x',   inertia x'' + damping x' + (stiffness + weight) x = u,
+
+x the twist and weight what gravity adds to u per angle. Every joint feels that the link stands back by x and
+accelerates less by x''. Other joints count as rigid, and speeds as they are without the twist.
+
+Source: Spong (1987), Modeling and control of elastic joint robots, J. Dyn. Sys. Meas. Control 109(4).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import ClassVar
+
+import numpy as np
+
+from app.diagnosis.effects.dynamic._law import Law, Torques, Values, choice
+from app.diagnosis.effects.effect import Place
+from app.diagnosis.models.dynamic.resonance import resonance_of
+from app.diagnosis.models.dynamic.state import State
+from app.diagnosis.models.dynamic.two_mass import Behind, twist
+from app.diagnosis.result import Parameter
+from app.diagnosis.thresholds.elastic import SHARE
+
+TRIED = 50  # stiffnesses times dampings that a log can tell apart: what the choice among them costs
+
+
+class ElasticJoint(Law):
+    key = "elastic_joint"
+    title = "a joint that twists under its load"
+    family = "drive"
+    driver = "acceleration"
+    equation = "tau = stiffness * x + damping * x', inertia * x'' + damping * x' + stiffness * x = tau_rigid"
+    units: ClassVar = {
+        "stiffness": "Nm/rad",
+        "damping": "Nm s/rad",
+        "inertia": "kg m^2",
+        "share": "1",
+    }
+    linear = ("share",)
+    bent: ClassVar = {"stiffness": 0.03, "damping": 0.3}
+    rough: ClassVar = {"stiffness": 0.002, "damping": 0.02}  # smoothed motion; what a twist changes in speeds
+    follows_load = True
+    located_by = ("joint",)
+    no_words = (
+        "joints of a description are rigid: as written, motor and link move as one; a body with the rotor's inertia, put "
+        "between them by hand, and a joint with this stiffness and damping behind it would do"
+    )
+
+    def places(self, situation: State) -> Iterable[Place]:
+        found = []
+        for j in range(situation.joints):
+            heard = resonance_of(situation, j)
+            if heard is not None:
+                fixed = {"stiffness": heard.stiffness, "damping": heard.damping, "inertia": heard.inertia}
+                where = {"joint": j + 1, "driver": self.driver}
+                found.append(Place(where, fixed, cost=choice(TRIED)))
+        return found
+
+    def columns(self, columns: State, place: Place) -> Torques:
+        joint, every = int(place.where["joint"]) - 1, columns.every
+        if every is None:
+            return {joint: np.zeros((len(columns.t), 1))}
+        inertia, weight = every.inertia(joint), every.weight(joint)
+        rigid = every.rigid[:, joint]
+        added = columns.torque[:, joint] - every.pooled(rigid)  # loads and masses that were found
+        behind = Behind(
+            rigid + np.interp(every.t, columns.t, added),
+            np.interp(every.t, columns.t, inertia[:, joint]),
+            np.interp(every.t, columns.t, weight[:, joint]),
+        )
+        turned, push = (
+            every.pooled(v)
+            for v in twist(every.t, behind, place.fixed["stiffness"], place.fixed["damping"], every.runs)
+        )
+        return {j: -(inertia[:, j] * push + weight[:, j] * turned)[:, None] for j in range(columns.joints)}
+
+    def widths(self, situation: State, place: Place, found: Torques | None = None) -> np.ndarray:
+        return np.ones(1)
+
+    def lawful(self, parameters: Values) -> bool:
+        return SHARE[0] < parameters["share"] < SHARE[1]
+
+    def sentence(self, place: Place, parameters: tuple[Parameter, ...]) -> str:
+        values = {p.name: p for p in parameters}
+        stiffness, damping, inertia = values["stiffness"], values["damping"], values["inertia"].value
+        turn = float(np.sqrt(stiffness.value / inertia))
+        frequency = turn / (2.0 * np.pi)
+        spread = 0.5 * frequency * stiffness.std / stiffness.value
+        ratio = damping.value / (2.0 * inertia * turn)
+        return (
+            f"Joint {place.where['joint']} twists: stiffness {_said(stiffness)}, damping {_said(damping)}. With the "
+            f"{_digits(inertia, 3)} kg m^2 that the description gives it in the mean of this log that rings at "
+            f"{_digits(frequency, 4)} ± {_digits(spread, 1)} Hz, at {_digits(ratio, 2)} "
+            "of the damping that would let nothing ring; the stiffness is as true as that inertia."
+        )
+
+
+def _said(parameter: Parameter) -> str:
+    return f"{_digits(parameter.value, 3)} ± {_digits(parameter.std, 1)} {parameter.unit}"
+
+
+def _digits(value: float, count: int) -> str:
+    """So many digits that count, written out."""
+    return f"{float(f'{value:.{count}g}'):g}"
+
+
+EFFECT = ElasticJoint()
