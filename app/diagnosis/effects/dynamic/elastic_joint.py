@@ -47,8 +47,8 @@ class ElasticJoint(Law):
     follows_load = True
     located_by = ("joint",)
     no_words = (
-        "joints of a description are rigid: as written, motor and link move as one; a body with the rotor's inertia, put "
-        "between them by hand, and a joint with this stiffness and damping behind it would do"
+        "a description has rigid joints: as written, motor and link move as one; a body with the rotor's inertia, "
+        "put between them by hand, and a joint with this stiffness and damping behind it would do"
     )
 
     def places(self, situation: State) -> Iterable[Place]:
