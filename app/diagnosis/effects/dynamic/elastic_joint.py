@@ -23,8 +23,10 @@ from app.diagnosis.effects.effect import Place
 from app.diagnosis.models.dynamic.resonance import resonance_of
 from app.diagnosis.models.dynamic.state import State
 from app.diagnosis.models.dynamic.two_mass import Behind, twist
+from app.diagnosis.quantity import quantity
 from app.diagnosis.result import Parameter
 from app.diagnosis.thresholds.elastic import SHARE
+from app.estimation import plus_minus
 
 TRIED = 50  # stiffnesses times dampings that a log can tell apart: what the choice among them costs
 
@@ -93,20 +95,11 @@ class ElasticJoint(Law):
         spread = 0.5 * frequency * stiffness.std / stiffness.value
         ratio = damping.value / (2.0 * inertia * turn)
         return (
-            f"Joint {place.where['joint']} twists: stiffness {_said(stiffness)}, damping {_said(damping)}. With the "
-            f"{_digits(inertia, 3)} kg m^2 that the description gives it in the mean of this log that rings at "
-            f"{_digits(frequency, 4)} ± {_digits(spread, 1)} Hz, at {_digits(ratio, 2)} "
-            "of the damping that would let nothing ring; the stiffness is as true as that inertia."
+            f"Joint {place.where['joint']} twists: stiffness {quantity(stiffness)}, damping {quantity(damping)}. "
+            f"With the {inertia:.3g} kg m^2 that the description gives it in the mean of this log that rings at "
+            f"{plus_minus(frequency, spread, 'Hz')}, at {ratio:.2g} of the damping "
+            "that would let nothing ring; the stiffness is as true as that inertia."
         )
-
-
-def _said(parameter: Parameter) -> str:
-    return f"{_digits(parameter.value, 3)} ± {_digits(parameter.std, 1)} {parameter.unit}"
-
-
-def _digits(value: float, count: int) -> str:
-    """So many digits that count, written out."""
-    return f"{float(f'{value:.{count}g}'):g}"
 
 
 EFFECT = ElasticJoint()
