@@ -43,11 +43,11 @@ def carried(robot: RobotModel, model: SavedModel) -> SimArm:
     return replace(arm, left=tuple(left))
 
 
-def left_of(effect: ModelEffect) -> Left:
+def left_of(effect: ModelEffect, why: str = "") -> Left:
     """An effect as one line: its place, its values."""
     place = ", ".join(f"{k} {v}" for k, v in effect.where.items())
     size = ", ".join(f"{k} {v:.4g}" for k, v in effect.parameters.items()) or "no values"
-    return Left(f"{effect.effect} ({place})" if place else effect.effect, size)
+    return Left(f"{effect.effect} ({place})" if place else effect.effect, size, why)
 
 
 def _said(robot: RobotModel, kind: str, effect: ModelEffect) -> tuple[Change, ...]:
