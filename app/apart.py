@@ -27,6 +27,7 @@ Say = Callable[[float, str], None]
 _FORKED = "forkserver" in multiprocessing.get_all_start_methods()
 _CONTEXT: Any = multiprocessing.get_context("forkserver" if _FORKED else "spawn")
 _LOOK = 0.05  # seconds between two looks at whether the job was given up
+_ENDING = 10.0  # seconds by the clock in which a process that closed its pipe has said how it ended
 _GIB = 1 << 30
 _POLITE = 5  # how much later than the server's own threads it gets its turn, as `nice` counts
 
@@ -136,7 +137,7 @@ def _answer(ours: Connection, process: Any, bounds: Bounds, say: Say | None, sto
         try:
             kind, what = ours.recv()
         except (EOFError, OSError):
-            process.join(_LOOK)
+            process.join(_ENDING)
             raise _died(process.exitcode, bounds) from None
         if kind == "done":
             return what

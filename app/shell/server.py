@@ -267,8 +267,7 @@ class PendantServer:
     def wait(self) -> None:
         """Serves until somebody interrupts; what is loaded so far is no longer looked through for garbage, since that
         keeps every page waiting for a twentieth of a second."""
-        gc.collect()
-        gc.freeze()
+        gc.freeze()  # without collecting: a signal to end that comes in the midst of that is lost
         while self._thread.is_alive():
             self._thread.join(timeout=3600.0)
 

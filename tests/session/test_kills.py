@@ -32,10 +32,10 @@ for line in sys.stdin:
     name = line.strip()
     child = os.fork()
     if child:
-        print("child", child, flush=True)
         os.waitpid(child, 0)
         print("dead", flush=True)
         continue
+    os.write(1, f"child {os.getpid()}\\n".encode())
     session = Store(Path(sys.argv[1])).open(name)
     q = session.state.q
     while True:

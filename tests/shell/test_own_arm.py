@@ -83,7 +83,7 @@ def test_another_server_on_the_same_data_has_the_session_and_its_arm(page, hub, 
         assert live.session.state.robot == name
         np.testing.assert_allclose(live.context.q, q)
         assert live.context.model.title == TITLE
-        assert not str(live.context.model.path).startswith(str(hub.arms._folder))
+        assert not str(live.context.model.path).startswith(str(hub.arms._unpacked.path))
     finally:
         other.close()
 

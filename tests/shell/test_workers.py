@@ -104,10 +104,13 @@ def test_a_polite_end_ends_all_of_it_and_keeps_where_the_arm_stands(tmp_path, nu
         assert hand.wait_for(lambda: bool(hand.read))
         workers = server.workers()
         start = hand.read["axes"][0]["number"]
-        hand.hold(0.3, axis=0, sign=1)
-        assert hand.wait_for(
-            lambda: hand.read["how"] == "standing" and hand.read["axes"][0]["number"] != start
-        )
+        end = time.monotonic() + 60
+        while (
+            hand.read["axes"][0]["number"] == start
+        ):  # on a busy machine a switch that falls silent stops the arm
+            assert time.monotonic() < end
+            hand.hold(0.3, axis=0, sign=1)
+            assert hand.wait_for(lambda: hand.read["how"] == "standing")
         angle = hand.read["axes"][0]["number"]
         server.process.send_signal(number)
         assert server.process.wait(timeout=20) == 0
