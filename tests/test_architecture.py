@@ -6,6 +6,7 @@ from pathlib import Path
 from tests.source import parsed
 
 APP = Path(__file__).parent.parent / "app"
+DIAGNOSIS = APP / "diagnosis"
 
 #: Highest first; a package may import itself and what stands below it.
 LAYERS = [
@@ -73,6 +74,10 @@ PROOF_GENERATOR_SEES = {"errors", "files", "units", "catalog", "resources"}
 STRANGERS = [("shell", "scene"), ("scene", "shell"), ("shell", "screens"), ("session", "panel")]
 
 LONGEST_FILE = 300
+
+#: Modules of the diagnosis from one that is asked down to one that imports none of them. What a file names for the type
+#: checker alone is no step, nor what a function imports when it is called.
+DEEPEST_IMPORT = 8
 
 
 def _imports(path):
@@ -149,6 +154,24 @@ def test_no_file_imports_itself_in_a_circle():
                 todo.extend(edges[at])
 
 
+def test_no_chain_of_imports_in_the_diagnosis_is_long():
+    files = {".".join(p.relative_to(APP.parent).with_suffix("").parts): p for p in DIAGNOSIS.rglob("*.py")}
+    # a package's own file is called by the package's name
+    files = {name.removesuffix(".__init__"): path for name, path in files.items()}
+    chains = {}
+
+    def chain(name):
+        if name not in chains:
+            below = {m for m in _run_time_imports(files[name]) if m in files and m != name}
+            # from package import member: the member is what is needed
+            below -= {m for m in below if any(other.startswith(f"{m}.") for other in below)}
+            chains[name] = (*max((chain(m) for m in sorted(below)), key=len, default=()), name)
+        return chains[name]
+
+    longest = max(map(chain, files), key=len)
+    assert len(longest) <= DEEPEST_IMPORT, longest
+
+
 def test_third_parties_stay_in_their_place():
     wrong = []
     for path in _files():
@@ -203,7 +226,6 @@ OTHERWISE = {
     ("export/targets/_words.py", "delay"): "a word of the remark at the top of a file",
     ("export/targets/mjcf.py", "delay"): "an attribute of MuJoCo's motor",
 }
-DIAGNOSIS = APP / "diagnosis"
 EFFECTS = DIAGNOSIS / "effects"
 
 

@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
-from app.diagnosis.model import SavedModel
+from typing import TYPE_CHECKING
+
 from app.diagnosis.result import Judged, Quality
 from app.kinematics import RobotModel
 from app.recordings import Table
+
+if TYPE_CHECKING:
+    from app.diagnosis.model import SavedModel
+
 
 BARE, WITH = "description alone", "with the model"
 

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from app.diagnosis.dynamic.fitting import Fitted
-from app.diagnosis.dynamic.names import Member
 from app.diagnosis.dynamic.solution import error_with, heldout_without
 from app.diagnosis.model import ModelEffect
 from app.diagnosis.models.dynamic.hypothesis import Hypothesis, as_given
@@ -16,6 +15,10 @@ from app.diagnosis.models.dynamic.samples import Samples
 from app.diagnosis.models.dynamic.saved import Predicted, beside, hypothesis_of
 from app.diagnosis.result import MOTION_FAMILIES, FamilyShare, Quality
 from app.diagnosis.thresholds.naming_logs import LEAST
+
+if TYPE_CHECKING:
+    from app.diagnosis.dynamic.fitting import Fitted
+    from app.diagnosis.dynamic.names import Member
 
 
 def budget(

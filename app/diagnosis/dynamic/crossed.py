@@ -10,14 +10,19 @@ Source: Geisser (1975), The predictive sample reuse method, JASA 70; stretches b
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 from scipy.linalg import LinAlgError, cho_factor, cho_solve
 
 from app.diagnosis.dynamic.families import ordinary
 from app.diagnosis.dynamic.solution import FOLDS, folds_of, plain_noise
-from app.diagnosis.dynamic.study import Study
 from app.diagnosis.regression.evidence import Selection
 from app.diagnosis.thresholds.predicting import PLAINLY, WIDE, WORTH
+
+if TYPE_CHECKING:
+    from app.diagnosis.dynamic.study import Study
+
 
 JITTER = 1e-11  # of the diagonal: keeps nearly dependent columns positive
 

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from app.diagnosis.dynamic.event_sums import between, block_gains, by_row, gains
 from app.diagnosis.dynamic.pieces import Pieces, beside, from_start
-from app.diagnosis.effects.dynamic._law import Law
 from app.diagnosis.effects.effect import Place
 from app.diagnosis.models.dynamic.design import TorqueDesign
 from app.diagnosis.models.dynamic.library import Candidate, group_of, laws
@@ -17,6 +17,10 @@ from app.diagnosis.models.dynamic.state import State
 from app.diagnosis.regression.evidence import Evidence, Posterior, Selection
 from app.diagnosis.selection.search import Offer
 from app.diagnosis.thresholds.events import EDGE, LONGEST, MARGIN, MOST, MOVING, SHORTEST
+
+if TYPE_CHECKING:
+    from app.diagnosis.effects.dynamic._law import Law
+
 
 PIECES = 60  # of the log: edges of events are looked for at their ends first, and moved continuously then
 SWELLS = (1.0, 1.3)  # lengths of a contact that swells and fades over that of the best even one

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from app.diagnosis.dynamic.budget import budget
-from app.diagnosis.dynamic.fitting import Fitted
 from app.diagnosis.dynamic.loads import told_as_load
 from app.diagnosis.dynamic.names import Member, differs, members, rivals, waves
 from app.diagnosis.dynamic.next_motion import next_motion
@@ -35,6 +35,9 @@ from app.diagnosis.thresholds.naming import CERTAIN, UNNAMED_SHARE
 from app.diagnosis.thresholds.naming_logs import CHANGE, HOPELESS, NAME, RIPPLES, SHARE
 from app.diagnosis.thresholds.noise import LEFT_P
 from app.diagnosis.wording import note
+
+if TYPE_CHECKING:
+    from app.diagnosis.dynamic.fitting import Fitted
 
 
 def build(fitted: Fitted, file: str, *, reference: Fitted | None = None) -> Diagnosis:

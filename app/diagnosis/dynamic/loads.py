@@ -12,17 +12,21 @@ Against another log of the arm its links are what they were, and what was added 
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from app.diagnosis.dynamic.names import Member
-from app.diagnosis.dynamic.study import Study
 from app.diagnosis.effects.effect import Place
 from app.diagnosis.models.dynamic.library import Candidate, laws
 from app.diagnosis.thresholds.evidence import NOMINAL
 from app.diagnosis.thresholds.naming import RIVAL
 from app.diagnosis.thresholds.naming_logs import HEAVIER, LOAD_MASS, LOAD_SURE, WEIGHED
 from app.kinematics.dynamics import PER_LINK
+
+if TYPE_CHECKING:
+    from app.diagnosis.dynamic.study import Study
+
 
 SHOWN = 4  # mass and first moment: the rest of a body hardly shows
 

@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.special import chdtrc
 
 from app.diagnosis.dynamic.solution import Solution
-from app.diagnosis.dynamic.study import Study
 from app.diagnosis.models.dynamic.library import Candidate, laws
 from app.diagnosis.result import UNNAMED
 from app.diagnosis.thresholds.naming import MEMBER_WALD, MEMBER_WALD_PARAMETER, RIVAL
 from app.diagnosis.thresholds.naming_logs import CURVE, NAME, RIPPLES, SHARE, STANDS_OUT
+
+if TYPE_CHECKING:
+    from app.diagnosis.dynamic.study import Study
 
 
 @dataclass(frozen=True, eq=False)

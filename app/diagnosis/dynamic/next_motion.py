@@ -6,11 +6,16 @@ finding's values, a pose with torques e tells them apart by e' (I + X C X')^-1 e
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
-from app.diagnosis.dynamic.fitting import Fitted
 from app.diagnosis.dynamic.names import Member, rivals
 from app.diagnosis.wording import effect, joint_or_arm, note
+
+if TYPE_CHECKING:
+    from app.diagnosis.dynamic.fitting import Fitted
+
 
 COUNT = 3
 APART = 0.5  # rad between two proposals

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
-from app.diagnosis.dynamic.fitting import Fitted
 from app.diagnosis.model import ModelEffect
 from app.diagnosis.models.dynamic.hypothesis import as_given
 from app.diagnosis.models.dynamic.library import laws
-from app.diagnosis.models.dynamic.saved import Predicted
 from app.diagnosis.result import UNNAMED, Evidence
+
+if TYPE_CHECKING:
+    from app.diagnosis.dynamic.fitting import Fitted
+    from app.diagnosis.models.dynamic.saved import Predicted
 
 
 def evidence_of(

@@ -11,11 +11,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from app.diagnosis.dynamic.families import families
-from app.diagnosis.dynamic.fitting import Fitted
 from app.diagnosis.dynamic.solution import solve
 from app.diagnosis.dynamic.study import Study
 from app.diagnosis.effects.dynamic._law import WIDTH, Law, Torques
@@ -25,6 +25,10 @@ from app.diagnosis.models.dynamic.library import Candidate, label, nominal
 from app.diagnosis.models.dynamic.state import State
 from app.diagnosis.result import UNNAMED
 from app.diagnosis.thresholds.evidence import DRIFT
+
+if TYPE_CHECKING:
+    from app.diagnosis.dynamic.fitting import Fitted
+
 
 KEY = "known_before"
 

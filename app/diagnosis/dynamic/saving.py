@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
-from app.diagnosis.dynamic.fitting import Fitted
 from app.diagnosis.dynamic.names import Member
 from app.diagnosis.effects.dynamic._law import WIDTH
 from app.diagnosis.model import ModelEffect, Taught
 from app.diagnosis.models.dynamic.library import laws
 from app.diagnosis.models.dynamic.saved import fingerprint, hypothesis_of
 from app.diagnosis.result import Quality
+
+if TYPE_CHECKING:
+    from app.diagnosis.dynamic.fitting import Fitted
+
 
 STILL = 1e-3  # rad or m: a joint whose range is less has not moved
 POSES = 60  # kept of where a model was learnt

@@ -7,15 +7,19 @@ beside it have theirs with the shape free.
 from __future__ import annotations
 
 from collections.abc import Iterable
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from app.diagnosis.dynamic.solution import Solution
-from app.diagnosis.dynamic.study import Study
 from app.diagnosis.effects.dynamic._law import Law, Torques
 from app.diagnosis.effects.effect import Place, Quantity
 from app.diagnosis.models.dynamic.state import State
 from app.diagnosis.result import UNNAMED
+
+if TYPE_CHECKING:
+    from app.diagnosis.dynamic.study import Study
+
 
 STEP = 1e-3  # relative, of the difference quotient
 

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from app.diagnosis.models.dynamic.library import laws
-from app.diagnosis.models.dynamic.samples import Samples
 from app.diagnosis.thresholds.friction import STRIBECK, SURE, TOGETHER, WIDER
 from app.kinematics.dynamics import PER_LINK
+
+if TYPE_CHECKING:
+    from app.diagnosis.models.dynamic.samples import Samples
 
 
 def learnt_widths(samples: Samples) -> np.ndarray:

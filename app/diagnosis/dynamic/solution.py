@@ -16,14 +16,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from app.diagnosis.dynamic.study import Study
 from app.diagnosis.models.dynamic.noise import Whitener, spectrum, without_spikes
-from app.diagnosis.models.dynamic.samples import Samples
 from app.diagnosis.thresholds.evidence import GAIN_SPREAD
 from app.diagnosis.thresholds.noise import FEWEST, MOST, STRETCH
 
 if TYPE_CHECKING:
     from app.diagnosis.dynamic.names import Member
+    from app.diagnosis.dynamic.study import Study
+    from app.diagnosis.models.dynamic.samples import Samples
 
 BLOCKS, FOLDS = 20, 5  # stretches of the log, and in how many turns they are left out
 RENEWALS = 3

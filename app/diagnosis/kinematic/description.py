@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from app.diagnosis.models.kinematic.candidates import Library
-from app.diagnosis.models.kinematic.library import Linear
-from app.diagnosis.models.kinematic.state import State
 from app.diagnosis.regression.evidence import Evidence, Posterior, Selection
+
+if TYPE_CHECKING:
+    from app.diagnosis.models.kinematic.candidates import Library
+    from app.diagnosis.models.kinematic.library import Linear
+    from app.diagnosis.models.kinematic.state import State
 
 
 @dataclass(eq=False)

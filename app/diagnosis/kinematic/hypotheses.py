@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -10,7 +11,6 @@ from app.diagnosis.effects.effect import Level
 from app.diagnosis.models.kinematic.candidates import library_of
 from app.diagnosis.models.kinematic.library import linearised
 from app.diagnosis.models.kinematic.rows import compared, t_likelihood, weighted_anew
-from app.diagnosis.models.kinematic.state import State
 from app.diagnosis.observations.conventions import Convention, conventions, likelihood_of
 from app.diagnosis.observations.pose_data import StaticRecording
 from app.diagnosis.observations.pose_reading import renumbered
@@ -24,6 +24,10 @@ from app.diagnosis.thresholds.conventions import (
 )
 from app.errors import TeachframeError
 from app.kinematics import RobotModel
+
+if TYPE_CHECKING:
+    from app.diagnosis.models.kinematic.state import State
+
 
 #: Hypotheses that go from the plain comparison to the one with all families in.
 _SHORT_LIST = 4

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -12,7 +12,6 @@ from app.diagnosis.effects.effect import Level
 from app.diagnosis.kinematic import budget
 from app.diagnosis.kinematic.description import Description
 from app.diagnosis.kinematic.findings import imitated
-from app.diagnosis.kinematic.judging import Judgement
 from app.diagnosis.models.kinematic.candidates import Candidate
 from app.diagnosis.observations.noise import residual_rms
 from app.diagnosis.result import UNNAMED, Noise
@@ -20,6 +19,9 @@ from app.diagnosis.thresholds.naming import CANCELLING, UNNAMED_SHARE
 from app.diagnosis.thresholds.noise import EXCESS_SIGMA, HEAVY_TAILS, HOPELESS
 from app.diagnosis.thresholds.rows import OUTLIER_SHARE
 from app.units import from_mm
+
+if TYPE_CHECKING:
+    from app.diagnosis.kinematic.judging import Judgement
 
 
 @dataclass(frozen=True)

@@ -7,11 +7,15 @@ Without it smooth curves share in what a law explains, and its value is too smal
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from app.diagnosis.effects.effect import Level
-from app.diagnosis.models.kinematic.library import Linear
 from app.diagnosis.thresholds.evidence import RIDGE
+
+if TYPE_CHECKING:
+    from app.diagnosis.models.kinematic.library import Linear
 
 
 def put_in_order(linear: Linear) -> None:

@@ -11,7 +11,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from app.diagnosis.models.kinematic.library import Candidate, Library, terms_from
+from app.diagnosis.models.kinematic.candidates import Candidate, Library
+from app.diagnosis.models.kinematic.library import terms_from
 from app.diagnosis.models.kinematic.rows import compared, t_likelihood, weighted_anew
 from app.diagnosis.models.kinematic.state import State, settled, state_of
 from app.diagnosis.thresholds.conventions import CONVENTION_MISFIT

@@ -3,17 +3,21 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from app.diagnosis.kinematic.description import Description
-from app.diagnosis.kinematic.findings import Named
 from app.diagnosis.models.kinematic.candidates import Candidate
 from app.diagnosis.models.kinematic.situation import Situation, situation_for
 from app.diagnosis.models.kinematic.state import columns_of, free_columns, state_of
 from app.diagnosis.observations.pose_data import StaticRecording
 from app.diagnosis.result import Finding
 from app.kinematics import RobotModel
+
+if TYPE_CHECKING:
+    from app.diagnosis.kinematic.findings import Named
+
 
 COUNT = 3
 _DRAWN = 300

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
-from app.diagnosis.kinematic.judging import Judgement
 from app.diagnosis.models.kinematic.state import State
 from app.diagnosis.observations.pose_data import StaticRecording
 from app.diagnosis.result import Evidence
 from app.units import deg
+
+if TYPE_CHECKING:
+    from app.diagnosis.kinematic.judging import Judgement
 
 
 def evidence_of(recording: StaticRecording, judgement: Judgement) -> Evidence:

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from app.diagnosis.effects.effect import EDGE
 from app.diagnosis.kinematic.description import Description
-from app.diagnosis.kinematic.judging import Judgement
-from app.diagnosis.kinematic.left import Left
 from app.diagnosis.observations.noise import residual_rms, rounding_noise
 from app.diagnosis.result import Noise
 from app.diagnosis.wording import note
 from app.units import mm
+
+if TYPE_CHECKING:
+    from app.diagnosis.kinematic.judging import Judgement
+    from app.diagnosis.kinematic.left import Left
 
 
 def remarks(

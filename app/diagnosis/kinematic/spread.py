@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from app.diagnosis.models.kinematic.library import Linear
 from app.diagnosis.regression.evidence import Posterior, Selection
 from app.diagnosis.thresholds.rows import OUTLIER_WEIGHT, ROBUST_DOF
+
+if TYPE_CHECKING:
+    from app.diagnosis.models.kinematic.library import Linear
 
 
 def as_errors_are(posterior: Posterior, linear: Linear, selection: Selection, rows: np.ndarray) -> Posterior:

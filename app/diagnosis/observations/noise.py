@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from app.diagnosis.models.kinematic.state import State
 from app.diagnosis.observations.pose_data import StaticRecording
 from app.diagnosis.result import Noise
 from app.diagnosis.thresholds.repeats import LEAST_REPEATS
 from app.units import mm
+
+if TYPE_CHECKING:
+    from app.diagnosis.models.kinematic.state import State
+
 
 _SQRT12 = np.sqrt(12.0)
 

@@ -6,14 +6,18 @@ from collections.abc import Sequence
 from copy import copy
 from dataclasses import dataclass
 from itertools import pairwise
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from app.diagnosis.regression.design import Absorbed, Design
-from app.diagnosis.regression.evidence import Evidence, Factor, Selection
 from app.diagnosis.regression.triangular import lower_solved
 from app.diagnosis.thresholds.evidence import STEP, WIDTHS
 from app.diagnosis.thresholds.rows import STEP_EDGE, STEP_EDGE_SHARE, STEP_GAP
+
+if TYPE_CHECKING:
+    from app.diagnosis.regression.evidence import Evidence, Factor, Selection
+
 
 #: First rows that are tried at once; of longer recordings every so many rows first, then all rows around the best.
 _AT_ONCE = 200

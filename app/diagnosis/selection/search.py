@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Sequence
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from app.diagnosis.regression.evidence import Beside, Evidence
 from app.diagnosis.regression.groups import Selection
 from app.diagnosis.thresholds.evidence import BETTER, DROP, EXCHANGES, PAIR_COSINE, TAKE
+
+if TYPE_CHECKING:
+    from app.diagnosis.regression.evidence import Beside, Evidence
 
 
 @dataclass(frozen=True)

@@ -4,15 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from app.diagnosis.models.dynamic.hypothesis import Hypothesis
-from app.diagnosis.models.dynamic.smoothing import Motion
 from app.diagnosis.models.dynamic.spline import hermite
-from app.diagnosis.observations.joint_log import Log
 from app.kinematics import RobotModel
 from app.kinematics.regressor import torque_regressor
+
+if TYPE_CHECKING:
+    from app.diagnosis.models.dynamic.smoothing import Motion
+    from app.diagnosis.observations.joint_log import Log
+
 
 _AT_ONCE = 20_000  # samples whose regressor is in memory
 _SLOW = 0.04  # s over which an inertia changes along a line

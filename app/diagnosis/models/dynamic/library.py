@@ -5,16 +5,20 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from types import MappingProxyType
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from app import catalog
-from app.diagnosis.effects.dynamic._law import Law
 from app.diagnosis.effects.effect import Place
-from app.diagnosis.models.dynamic.design import TorqueDesign
-from app.diagnosis.models.dynamic.state import State
 from app.diagnosis.regression.evidence import Group
 from app.diagnosis.thresholds.evidence import FAMILY_WIDTHS, LAW_WIDTHS, LOG_FAMILY
+
+if TYPE_CHECKING:
+    from app.diagnosis.effects.dynamic._law import Law
+    from app.diagnosis.models.dynamic.design import TorqueDesign
+    from app.diagnosis.models.dynamic.state import State
+
 
 EFFECTS = "app.diagnosis.effects.dynamic"
 NOTHING: Mapping[str, float] = MappingProxyType({})

@@ -8,13 +8,17 @@ each joint are fitted to some hundred samples under each, and the least residual
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from app.diagnosis.models.dynamic.filters import HALF_WIDTHS, Run, Smoothing, differentiate, noise_of
-from app.diagnosis.observations.joint_log import Log
 from app.kinematics import RobotModel
 from app.kinematics.regressor import PER_LINK, torque_regressor
+
+if TYPE_CHECKING:
+    from app.diagnosis.observations.joint_log import Log
+
 
 PROBED = 6_000  # samples the choice looks at
 COMPARED = 700  # of them the torques are explained for

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from app.diagnosis.models.dynamic.every_sample import EverySample
 from app.diagnosis.models.dynamic.hypothesis import Hypothesis
+
+if TYPE_CHECKING:
+    from app.diagnosis.models.dynamic.every_sample import EverySample
 
 
 @dataclass(frozen=True, eq=False)

@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from app.diagnosis.models.kinematic.situation import Situation
 from app.geometry import exp_so3
 from app.kinematics.chain import Frames
+
+if TYPE_CHECKING:
+    from app.diagnosis.models.kinematic.situation import Situation
+
 
 #: (1, 3, 3) of a base that has not turned.
 _STRAIGHT = np.eye(3)[None]

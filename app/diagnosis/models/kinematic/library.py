@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from app.diagnosis.effects.effect import Effect, Level
-from app.diagnosis.models.kinematic.candidates import Candidate, Library
-from app.diagnosis.models.kinematic.sensitivity import Sensitivity
 from app.diagnosis.models.kinematic.state import State, columns_of, free_columns
 from app.diagnosis.models.kinematic.terms import Term
 from app.diagnosis.regression.design import Absorbed, Design
@@ -16,6 +15,11 @@ from app.diagnosis.regression.evidence import Group
 from app.diagnosis.selection.change_points import Kind, Scanner
 from app.diagnosis.thresholds.evidence import FAMILY, STEP
 from app.diagnosis.thresholds.naming import SEEN
+
+if TYPE_CHECKING:
+    from app.diagnosis.models.kinematic.candidates import Candidate, Library
+    from app.diagnosis.models.kinematic.sensitivity import Sensitivity
+
 
 #: rad, m: columns are made anew once the arm as fitted has moved by more. Levers are about a metre, so columns are then
 #: off by a thousandth, and a step along them misses its end by a thousandth of itself; the next one starts there.

@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
-from app.diagnosis.models.kinematic.sensitivity import Sensitivity
 from app.diagnosis.models.kinematic.setup import Setup
-from app.diagnosis.observations.pose_data import StaticRecording
 from app.errors import DegenerateGeometryError
 from app.geometry import nearest_rotation
+
+if TYPE_CHECKING:
+    from app.diagnosis.models.kinematic.sensitivity import Sensitivity
+    from app.diagnosis.observations.pose_data import StaticRecording
+
 
 #: Rounds of "rigid motion, then tool" before Gauss-Newton takes over, at most, and m by which the tool still moves.
 _ALTERNATIONS, _NEAR = 12, 1e-6

@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from app.diagnosis.models.kinematic.state import State, settled, started
-from app.diagnosis.models.kinematic.terms import Term
 from app.diagnosis.observations.pose_data import StaticRecording
 from app.diagnosis.thresholds.rows import ALMOST, HEADROOM, OUTLIER_WEIGHT, ROBUST_DOF
 from app.errors import TeachframeError
+
+if TYPE_CHECKING:
+    from app.diagnosis.models.kinematic.terms import Term
+
 
 #: Median of a chi-square over its degrees of freedom, by degrees of freedom: for a robust first scale.
 _MEDIAN = {1: 0.455, 3: 0.789, 6: 0.891, 9: 0.927}

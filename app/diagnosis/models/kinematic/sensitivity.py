@@ -8,13 +8,16 @@ combine them.
 from __future__ import annotations
 
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from app.diagnosis.models.kinematic.cell import Cell, Posed
 from app.diagnosis.models.kinematic.setup import Setup, instrument_points
-from app.diagnosis.observations.pose_data import StaticRecording
 from app.geometry import skew
+
+if TYPE_CHECKING:
+    from app.diagnosis.models.kinematic.cell import Cell, Posed
+    from app.diagnosis.observations.pose_data import StaticRecording
 
 
 class Sensitivity:

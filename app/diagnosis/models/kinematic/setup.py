@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from app.diagnosis.models.kinematic.cell import Cell, Posed
-from app.diagnosis.observations.pose_data import StaticRecording
 from app.geometry import exp_so3, log_so3
+
+if TYPE_CHECKING:
+    from app.diagnosis.models.kinematic.cell import Cell, Posed
+    from app.diagnosis.observations.pose_data import StaticRecording
 
 
 @dataclass(frozen=True, eq=False)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -11,9 +12,12 @@ from app.diagnosis.models.kinematic.nuisance import nuisance_columns, starting_s
 from app.diagnosis.models.kinematic.sensitivity import Sensitivity
 from app.diagnosis.models.kinematic.setup import Setup, moved, residual
 from app.diagnosis.models.kinematic.terms import Term, apply_terms
-from app.diagnosis.observations.pose_data import StaticRecording
 from app.diagnosis.regression.design import Absorbed
 from app.kinematics.chain import Frames
+
+if TYPE_CHECKING:
+    from app.diagnosis.observations.pose_data import StaticRecording
+
 
 #: Gauss-Newton ends when a step changes the sum of squares by less than this share.
 _SETTLED = 1e-9

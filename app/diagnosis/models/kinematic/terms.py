@@ -5,15 +5,18 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cache
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from app import catalog
-from app.diagnosis.effects.effect import Effect, Place
 from app.diagnosis.models.kinematic.cell import Cell, nominal_cell
-from app.diagnosis.models.kinematic.situation import Situation
 from app.diagnosis.thresholds.drivers import BEYOND, INSIDE
+
+if TYPE_CHECKING:
+    from app.diagnosis.effects.effect import Effect, Place
+    from app.diagnosis.models.kinematic.situation import Situation
+
 
 EFFECTS = "app.diagnosis.effects.kinematic"
 
