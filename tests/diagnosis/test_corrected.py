@@ -76,6 +76,17 @@ def test_a_payload_loads_the_joints_as_its_weight_does(robot, tmp_path):
         assert np.allclose(new.gravity_torques(q) - robot.gravity_torques(q), added, atol=1e-6)
 
 
+def test_a_payload_found_in_poses_hangs_at_its_centre(robot, tmp_path):
+    mass, com = 3.0, np.array([0.02, -0.01, 0.1])
+    moments = {f"moment_{c}": mass * v for c, v in zip("xyz", com, strict=True)}
+    told = {f"com_{c}": float(v) for c, v in zip("xyz", com, strict=True)}
+    said = [ModelEffect("payload", {"body": "tool"}, {"mass": mass, **more}) for more in (moments, told)]
+    found, described = (corrected(robot, tmp_path, effect)[0] for effect in said)
+    q = poses(robot)[0]
+    assert np.allclose(found.gravity_torques(q), described.gravity_torques(q), atol=1e-9)
+    assert not np.allclose(found.gravity_torques(q), robot.gravity_torques(q), atol=1e-3)
+
+
 def test_what_a_urdf_cannot_say_is_named(robot, tmp_path):
     soft = ModelEffect("joint_compliance", {"joint": 2}, {"compliance": 1e-5})
     zero = ModelEffect("joint_zero", {"joint": 2}, {"offset": 0.01})
