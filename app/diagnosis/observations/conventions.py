@@ -105,9 +105,8 @@ def title_of(place: Place) -> Said:
     if kind == MIRROR:
         return note("convention_mirror")
     if kind == LATE:
-        return note(
-            "convention_late" if fixed["rows"] > 0 else "convention_early", rows=abs(int(fixed["rows"]))
-        )
+        rows = int(fixed["rows"])
+        return note("convention_late", rows=rows) if rows > 0 else note("convention_early", rows=-rows)
     if kind == LENGTH_UNIT:
         if fixed["factor"] == MM_PER_INCH:
             return note("convention_inches")
