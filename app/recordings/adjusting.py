@@ -84,7 +84,7 @@ def without_whole_turns(table: Table, robot: RobotModel) -> Table:
     if not shifts or 2 * len(shifts) > robot.joint_count:
         return table
     notes = tuple(Said(phrase("turns", joint=int(name[1:]), turns=turns)) for name, turns in shifts.items())
-    for quantity in ("q", "qc"):
+    for quantity in ("q", "qc", "theta"):
         for name, turns in shifts.items():
             table = _shifted(table, quantity + name[1:], turns)
     return replace(table, notes=(*table.notes, *notes))

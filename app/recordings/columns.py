@@ -22,6 +22,7 @@ _QUANTITIES: tuple[tuple[re.Pattern[str], tuple[str, ...]], ...] = tuple(
     for pattern, units in (
         (r"q\d+", (*_ANGLE, *_LENGTH)),
         (r"qc\d+", (*_ANGLE, *_LENGTH)),
+        (r"theta\d+", _ANGLE),  # of the motor, seen behind the gear
         (r"qd\d+", ("rad_s", "deg_s", "m_s", "mm_s")),
         (r"tau\d+", ("Nm",)),
         (r"i\d+", ("A",)),

@@ -1,7 +1,7 @@
 """Arrays under names of their own, made a recording by a mapping: `q=positions:deg,tau=effort,t=time:ms`.
 
-A quantity is q, qd, qc, tau, i or temperature (one number a joint), or any single column of a recording (t, target,
-payload, x …, xyz for three). A unit stands behind a colon; without one it is SI (rad, m for sliding joints, Nm, A, s).
+A quantity is q, qd, qc, theta, tau, i or temperature (one number a joint), or any single column of a recording (t,
+target, payload, x …, xyz for three). A unit stands behind a colon; without one it is SI (rad, m for sliding joints, Nm, A, s).
 Names that are usual are found without a mapping.
 """
 
@@ -22,7 +22,15 @@ from app.recordings.table import Table
 from app.recordings.wording import phrase
 
 #: Quantity -> its unit, where none is said; turning joints.
-A_JOINT = {"q": "rad", "qd": "rad_s", "qc": "rad", "tau": "Nm", "i": "A", "temperature": "degC"}
+A_JOINT = {
+    "q": "rad",
+    "qd": "rad_s",
+    "qc": "rad",
+    "theta": "rad",
+    "tau": "Nm",
+    "i": "A",
+    "temperature": "degC",
+}
 _SLIDING = {"q": "m", "qd": "m_s", "qc": "m", "tau": "Nm"}
 _SINGLE = {"t": "s", "payload": "kg", "length": "m", "x": "m", "y": "m", "z": "m"}
 #: What is usually meant, by the last part of a name in small letters.

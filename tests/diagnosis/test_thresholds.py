@@ -43,6 +43,7 @@ STAY = {
         "dynamic/solution.py": {"BLOCKS", "FOLDS"},
         "kinematic/findings.py": {"_MOST_RIVALS"},
         "kinematic/hypotheses.py": {"_SHORT_LIST"},
+        "models/dynamic/both_sides.py": {"FOLDS", "STRETCHES", "TURNS"},
         "models/dynamic/commands.py": {"STRETCHES"},
         "models/dynamic/every_sample.py": {"_AT_ONCE", "_SLOW", "_TURNED"},
         "models/dynamic/filters.py": {"_TOGETHER"},

@@ -112,6 +112,8 @@ def _state(robot, cell) -> State:
     rigid = columns @ inertial_parameters(robot)
     gravity, force = gravity_and_wrench_columns(robot, q)
     n = cell.arm.n
+    step = float(cell.t[1] - cell.t[0])
+    log = {"t": cell.t, "step": step, "segments": [slice(0, cell.m)], "motor": None}
     return State(
         hypothesis=as_given(n),
         t=cell.t,
@@ -136,9 +138,13 @@ def _state(robot, cell) -> State:
         link_mass=np.ones(n),
         link_size=np.ones(n),
         every=EverySample(
-            cast(Log, SimpleNamespace(t=cell.t, step=float(cell.t[1] - cell.t[0]), segments=[slice(0, cell.m)])),
-            robot, cast(Motion, SimpleNamespace(q=q, qd=qd, qdd=qdd)), as_given(n), inertial_parameters(robot),
-            np.arange(cell.m), 1,
+            cast(Log, SimpleNamespace(**log)),
+            robot,
+            cast(Motion, SimpleNamespace(q=q, qd=qd, qdd=qdd)),
+            as_given(n),
+            inertial_parameters(robot),
+            np.arange(cell.m),
+            1,
         ),
     )  # fmt: skip
 

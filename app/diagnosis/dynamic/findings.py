@@ -16,6 +16,7 @@ from app.diagnosis.dynamic.saving import effect_of, given_effects, readings, tau
 from app.diagnosis.dynamic.shapes import spread_of
 from app.diagnosis.dynamic.solution import error_with, heldout_without, surprise
 from app.diagnosis.model import ModelEffect, SavedModel
+from app.diagnosis.models.dynamic.both_sides import twist_findings
 from app.diagnosis.models.dynamic.commands import lag_findings
 from app.diagnosis.models.dynamic.hypothesis import as_given
 from app.diagnosis.models.dynamic.library import laws
@@ -65,7 +66,7 @@ def build(fitted: Fitted, file: str, *, reference: Fitted | None = None) -> Diag
         named = [
             m for m in named if m.held or (_changes(fitted, m, quality_after) and differs(reference.asked, m))
         ]
-    late = _lags(fitted, named)
+    late = (*_lags(fitted, named), *(twist_findings(study.state) if reference is None else ()))
     take_as = lambda h: study.samples if h is study.state.hypothesis else fitted.take(h)  # noqa: E731
     findings = (
         *_reading_findings(fitted, quality_before, quality_after),

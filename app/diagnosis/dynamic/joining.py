@@ -52,6 +52,7 @@ def joined(logs: Sequence[Ready]) -> Ready:
         only[0], t=np.concatenate(times), q=np.concatenate([log.q for log in only]),
         qd=_all([log.qd for log in only]), y=np.concatenate([log.y for log in only]),
         temperature=_all([log.temperature for log in only]), commanded=_all([log.commanded for log in only]),
+        motor=_all([log.motor for log in only]),
         rows=np.concatenate([log.rows for log in only]), segments=segments,
         step=float(np.median([log.step for log in only])), total=sum(log.total for log in only),
         dropped=np.concatenate([log.dropped for log in only]), notes=notes, spiked=spiked,

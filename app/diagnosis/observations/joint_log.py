@@ -38,6 +38,7 @@ class Log:
         lacking: header key of that factor, see effort.py; "" where `y` is a torque.
         temperature: (m, n) [degC] or None.
         commanded: (m, n) [rad or m] or None.
+        motor: (m, n) angles of the motors, seen behind the gear [rad or m], q where one is not recorded; or None.
         rows: (m,) line numbers.
         segments: runs without a gap.
         step: usual sampling step [s].
@@ -62,6 +63,7 @@ class Log:
     notes: tuple[str, ...] = field(default=())
     spiked: np.ndarray = field(default_factory=lambda: np.zeros((0, 0), bool))
     stiffness: np.ndarray | None = None
+    motor: np.ndarray | None = None
 
 
 def read_log(table: Table, robot: RobotModel) -> Log:
@@ -95,6 +97,7 @@ def read_log(table: Table, robot: RobotModel) -> Log:
         temperature = np.stack([table.tolerant(f"temperature{j}") for j in joints], axis=1)
     if table.has(*[f"qc{j}" for j in joints]):
         commanded = np.stack([table.tolerant(f"qc{j}") for j in joints], axis=1)[:, order]
+    motor = _motor_side(table, q, order)
     straight = order == list(range(n))
     as_recorded = q if straight else q[:, np.argsort(order)]
     effort = effort_of(table, n, as_recorded, _unordered(commanded, order), notes)
@@ -141,19 +144,20 @@ def read_log(table: Table, robot: RobotModel) -> Log:
     for part in segments:
         kept[part] = True
     temperature = _slow(_filled(temperature, good), step)
-    commanded = _filled(commanded, good)
+    commanded, motor = _filled(commanded, good), _filled(motor, good)
     if not kept.all():
         index = np.flatnonzero(kept)
         t, q, y, rows, spiked = t[index], q[index], y[index], rows[index], spiked[index]
         qd = None if qd is None else qd[index]
         temperature = None if temperature is None else temperature[index]
         commanded = None if commanded is None else commanded[index]
+        motor = None if motor is None else motor[index]
         sizes = np.cumsum([0, *[s.stop - s.start for s in segments]])
         segments = [slice(int(a), int(b)) for a, b in pairwise(sizes)]
     return Log(
         t, q, qd, y, effort.lacking, temperature, commanded, rows, segments, step, total, dropped,
         _stated_noise(table, n), tuple(notes), spiked,
-        None if effort.stiffness is None else effort.stiffness[order],
+        None if effort.stiffness is None else effort.stiffness[order], motor,
     )  # fmt: skip
 
 
@@ -199,6 +203,14 @@ def joint_order(table: Table, robot: RobotModel, notes: list[str]) -> list[int]:
     if order != list(range(n)):
         notes.append(note("bag_ordered", names=tuple(str(names[k]) for k in order)))
     return order
+
+
+def _motor_side(table: Table, q: np.ndarray, order: list[int]) -> np.ndarray | None:
+    """(m, n) of the columns theta1 …, in the joints' order; q where a joint has none, None where all have none."""
+    names = [f"theta{k + 1}" for k in order]
+    if not any(table.has(name) for name in names):
+        return None
+    return np.stack([table.tolerant(n) if table.has(n) else q[:, j] for j, n in enumerate(names)], axis=1)
 
 
 def _unordered(values: np.ndarray | None, order: list[int]) -> np.ndarray | None:

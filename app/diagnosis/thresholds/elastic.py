@@ -26,5 +26,11 @@ KNOWN_STIFFNESS = 0.1
 #: The same of the damping, which a log tells less well.
 KNOWN_DAMPING = 0.5
 
+#: Standard deviations by which what a twist gives under load must differ from nothing, where both sides are recorded.
+SURE = 5.0
+
+#: Part of the held-out difference of the two angles that may be left: what follows no load is no spring's.
+FALLS = 0.7
+
 #: Share of the damping at which nothing rings: more than this leaves one swing at most.
 DAMPED = 0.6

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
+from app.diagnosis.dynamic.diagnose import diagnose
 from app.diagnosis.dynamic.judging import judged
 from app.diagnosis.dynamic.shapes import STEP, Tangent
 from app.diagnosis.effects.effect import Place
@@ -108,7 +109,6 @@ def test_nothing_is_said_where_the_motion_lets_nothing_ring(tmp_path):
     run.torque[:, 1] -= 5.0 * twist(t, behind, 5.0 * (2 * np.pi * 9.0) ** 2, 20.0, [slice(0, len(t))])[1]
     measure(run, rng, 0.01)
     write(run, tmp_path / "log.csv", digits=7)
-    from app.diagnosis.dynamic.diagnose import diagnose
 
     assert not elastic(diagnose(read_table(tmp_path / "log.csv"), robot))
 
@@ -159,3 +159,44 @@ def test_columns_are_the_torque_of_the_saved_law_and_its_slopes_are_those_of_the
             for step in (-0.5 * STEP, 0.5 * STEP)
         ]
         assert np.abs(slope - (ends[1] - ends[0]) / STEP).max() < 1e-3 * np.abs(slope).max()
+
+
+def _both_sides(tmp_path, seed, stiffness, damping, *, noise):
+    """A log with the link's angles, and the motor's of joint 3 beside them; the load twists what is between."""
+    robot, rng = load_robot("ur10e"), np.random.default_rng(seed)
+    run = swing(robot, rng, samples=1500)
+    load = run.torque[:, 2]
+    apart = np.full(len(load), load[0] / stiffness)
+    for k in range(1, len(load)):  # stiffness x + damping x' = load, backward differences
+        apart[k] = (load[k] + damping / 0.01 * apart[k - 1]) / (stiffness + damping / 0.01)
+    measure(run, rng, 0.01)
+    motor = run.q[:, 2] + apart + 2e-3 + noise * rng.normal(size=len(load))
+    table = write(run, tmp_path / "log.csv", digits=7)
+    lines = (tmp_path / "log.csv").read_text().splitlines()
+    head = next(k for k, line in enumerate(lines) if line.startswith("t_s"))
+    lines[head] += ",theta3_rad"
+    lines[head + 1 :] = [f"{a},{b:.7f}" for a, b in zip(lines[head + 1 :], motor, strict=True)]
+    (tmp_path / "log.csv").write_text("\n".join(lines) + "\n")
+    return robot, read_table(table.path)
+
+
+@pytest.mark.parametrize("seed", [561, 562])
+def test_where_motor_and_link_are_both_recorded_their_difference_tells_the_spring(seed, tmp_path):
+    robot, table = _both_sides(tmp_path, seed, 6000.0, 60.0, noise=2e-4)
+    found = diagnose(table, robot)
+    (one,) = elastic(found)
+    assert one.where == {"joint": 3, "driver": "gravity_torque"} and one.heldout_unit == "rad"
+    values = {p.name: p for p in one.parameters}
+    for name, true in (("stiffness", 6000.0), ("damping", 60.0)):
+        assert abs(values[name].value - true) < SIGMAS * values[name].std + 0.02 * true
+    assert values["stiffness"].std < NEAR * 6000.0
+    assert one.heldout_rms_with == pytest.approx(2e-4, rel=0.1) and one.heldout_rms_without > 5e-4
+    model = msgspec.convert(dict(found.model), SavedModel)
+    assert "elastic_joint" in [e.effect for e in model.effects]
+    _, after = judged(table, robot, model).qualities
+    assert after.fit_rms == pytest.approx(found.after.fit_rms, rel=1e-9)
+
+
+def test_a_motor_that_only_reads_otherwise_is_no_spring(tmp_path):
+    robot, table = _both_sides(tmp_path, 563, 1e7, 0.0, noise=2e-4)
+    assert not elastic(diagnose(table, robot))

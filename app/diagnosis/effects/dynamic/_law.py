@@ -63,6 +63,7 @@ class Law(Effect[State, State, np.ndarray]):
         between_logs: how far its values may be off between two logs of one arm, over their nominal widths.
         apart: True where words say what other recording tells it from its rivals (`apart_` and its key).
         whole_log: True for a convention of the whole log, which has no columns: only `readings` offers it.
+        both_sides: the driver by which it is told where motor and link angles are both recorded; "" for others.
         follows_commands: True where a joint that answers its commands late is told as it.
         added: key of the law that a change of the same columns is where it is a body fixed to the link.
         servo_alike: keys of laws on the same joint that look the same where a servo's error stands for its torque.
@@ -100,6 +101,7 @@ class Law(Effect[State, State, np.ndarray]):
     between_logs = 1.0
     apart = False
     whole_log = False
+    both_sides = ""
     follows_commands = False
     added = ""
     servo_alike: ClassVar[Sequence[str]] = ()

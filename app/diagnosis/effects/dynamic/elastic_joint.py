@@ -18,7 +18,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from app.diagnosis.effects.dynamic._law import Law, Torques, Values, choice
+from app.diagnosis.effects.dynamic._law import Law, Torques, Values, Where, choice
 from app.diagnosis.effects.effect import Place
 from app.diagnosis.models.dynamic.resonance import resonance_of
 from app.diagnosis.models.dynamic.state import State
@@ -47,6 +47,7 @@ class ElasticJoint(Law):
     bent: ClassVar = {"stiffness": 0.03, "damping": 0.3}
     rough: ClassVar = {"stiffness": 0.002, "damping": 0.02}  # smoothed motion; what a twist changes in speeds
     follows_load = True
+    both_sides = "gravity_torque"
     located_by = ("joint",)
     no_words = (
         "a description has rigid joints: as written, motor and link move as one; a body with the rotor's inertia, "
@@ -62,6 +63,13 @@ class ElasticJoint(Law):
                 where = {"joint": j + 1, "driver": self.driver}
                 found.append(Place(where, fixed, cost=choice(TRIED)))
         return found
+
+    def torque(self, state: State, where: Where, parameters: Values) -> Torques:
+        if (
+            where.get("driver") == self.both_sides
+        ):  # the log has the link's angle: its torque is the rigid one
+            return {}
+        return super().torque(state, where, parameters)
 
     def columns(self, columns: State, place: Place) -> Torques:
         joint, every = int(place.where["joint"]) - 1, columns.every

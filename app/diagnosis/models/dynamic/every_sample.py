@@ -57,6 +57,17 @@ class EverySample:
         """Parts of the log without a gap."""
         return self.log.segments
 
+    def both_sides(self, joint: int) -> bool:
+        """True where the motor's angle of a joint (from 0) is recorded beside the link's."""
+        motor = self.log.motor
+        return motor is not None and bool(np.any(motor[:, joint] != self.log.q[:, joint]))
+
+    def apart(self, joint: int) -> np.ndarray:
+        """(m,) the motor's angle less the link's [rad], as the hypothesis reads positions."""
+        assert self.log.motor is not None
+        sides = (self.hypothesis.motion(values, 0)[:, joint] for values in (self.log.motor, self.log.q))
+        return next(sides) - next(sides)
+
     def measured(self, joint: int) -> np.ndarray:
         """(m,) measured torque of a joint (from 0), as the hypothesis reads it [Nm]."""
         return self.hypothesis.torque(self.log.y)[:, joint]

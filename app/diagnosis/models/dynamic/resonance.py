@@ -57,6 +57,8 @@ def resonance_of(state: State, joint: int) -> Resonance | None:
     """What rings behind a joint (from 0), or None."""
     if state.every is None or state.sliding[joint] or not state.moves(joint):
         return None
+    if state.every.both_sides(joint):  # the angle is the link's
+        return None
     key = ("resonance", joint, state.hypothesis.key)
     if key not in state.memory:
         state.memory[key] = _found(state, joint)
