@@ -1,8 +1,8 @@
 """Arrays under names of their own, made a recording by a mapping: `q=positions:deg,tau=effort,t=time:ms`.
 
 A quantity is q, qd, qc, theta, tau, i or temperature (one number a joint), or any single column of a recording (t,
-target, payload, x …, xyz for three). A unit stands behind a colon; without one it is SI (rad, m for sliding joints, Nm, A, s).
-Names that are usual are found without a mapping.
+target, payload, x …, xyz for three). A unit stands behind a colon; without one it is SI (rad, m for sliding joints, Nm,
+A, s). Names that are usual are found without a mapping.
 """
 
 from __future__ import annotations

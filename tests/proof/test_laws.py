@@ -146,7 +146,7 @@ def _state(robot, cell) -> State:
             np.arange(cell.m),
             1,
         ),
-    )  # fmt: skip
+    )
 
 
 @pytest.mark.parametrize("topology", ["spherical_wrist", "seven_axes"])
