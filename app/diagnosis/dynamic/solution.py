@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from app.diagnosis.models.dynamic.noise import Whitener, spectrum, without_spikes
+from app.diagnosis.regression.solved import Weights
 from app.diagnosis.thresholds.evidence import GAIN_SPREAD
 from app.diagnosis.thresholds.noise import FEWEST, MOST, STRETCH
 
@@ -30,32 +31,20 @@ RENEWALS = 3
 
 
 @dataclass(frozen=True, eq=False)
-class Solution:
+class Solution(Weights):
     """Weights of the selected columns.
 
     Args:
-        columns: (a,) numbers in the design.
-        weights: (a,) in nominal widths.
-        covariance: (a, a) likewise.
         plain: True where every sample counts alike.
         heldout: (M, n) residual of windows left out, everything linear refitted without them [Nm].
         whiteners: the weights.
         turns: its columns by stretches, for the same with some of them left out.
     """
 
-    columns: np.ndarray
-    weights: np.ndarray
-    covariance: np.ndarray
     plain: bool
     heldout: np.ndarray
     whiteners: tuple[Whitener, ...]
     turns: _Turns = field(repr=False)
-
-    def of(self, columns: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Weights and covariance of some columns."""
-        at = {int(c): i for i, c in enumerate(self.columns)}
-        where = np.array([at[int(c)] for c in columns], int)
-        return self.weights[where], self.covariance[np.ix_(where, where)]
 
 
 def solve(study: Study, *, plain: bool, held: Sequence[int] = (), gains: bool = True) -> Solution:

@@ -37,26 +37,35 @@ class Factor:
 
 
 @dataclass(frozen=True, eq=False)
-class Posterior:
-    """Weights of a selection.
+class Weights:
+    """Weights of columns that were solved for.
 
     Args:
-        columns: (a,) numbers of the columns.
+        columns: (a,) numbers of the columns in the design.
         weights: (a,) means, in nominal sizes.
         covariance: (a, a), noise variance included.
-        variance: noise variance (1 where the noise is known).
     """
 
     columns: np.ndarray
     weights: np.ndarray
     covariance: np.ndarray
-    variance: float
 
     def of(self, columns: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Means and covariance of some of the columns."""
         at = {int(c): i for i, c in enumerate(self.columns)}
         where = np.array([at[int(c)] for c in columns], int)
         return self.weights[where], self.covariance[np.ix_(where, where)]
+
+
+@dataclass(frozen=True, eq=False)
+class Posterior(Weights):
+    """Weights of a selection.
+
+    Args:
+        variance: noise variance (1 where the noise is known).
+    """
+
+    variance: float
 
 
 @dataclass(frozen=True, eq=False)

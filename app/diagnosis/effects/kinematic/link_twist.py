@@ -2,12 +2,8 @@
 
 from __future__ import annotations
 
-import numpy as np
-
-from app.diagnosis.effects.described import Placed, only
-from app.diagnosis.effects.kinematic._base import KinematicEffect, Place, Quantity, joints
-from app.diagnosis.models.kinematic.geometry import AXES, link_axes
-from app.diagnosis.quantity import quantity
+from app.diagnosis.effects.kinematic._base import Place, Quantity, joints
+from app.diagnosis.effects.kinematic._link import LinkEffect
 
 #: rad: machining of bearing seats.
 _WIDTH = 4e-4
@@ -15,7 +11,7 @@ _WIDTH = 4e-4
 _LARGEST = 0.05
 
 
-class LinkTwist(KinematicEffect):
+class LinkTwist(LinkEffect):
     """The next axis leans about the common normal (alpha) or across it (beta).
 
     Source: Denavit, Hartenberg (1955) for alpha; Hayati (1983) for beta.
@@ -24,11 +20,7 @@ class LinkTwist(KinematicEffect):
     key = "link_twist"
     title = "A link is twisted"
     equation = "T_link_next = T_nominal turned by angle about alpha (common normal) or beta (across it)"
-    family = "geometry"
-    located_by = ("link",)
-    cap = 20.0
-    whole = True
-    always = True
+    turns = True
 
     def places(self, situation):
         parallel = situation.links.parallel
@@ -41,24 +33,6 @@ class LinkTwist(KinematicEffect):
 
     def quantities(self, situation, place):
         return (Quantity("angle", "deg", _WIDTH, -_LARGEST, _LARGEST),)
-
-    def apply(self, cell, situation, place, values):
-        k = place.where["link"] - 1
-        vector = situation.links.vectors[k, AXES.index(place.where["axis"])]
-        return cell.add_link(k, np.zeros(3), values[0] * vector)
-
-    def columns(self, columns, place):
-        return columns.link[:, :, place.where["link"] - 1, AXES.index(place.where["axis"]), None]
-
-    def described(self, robot, where, parameters):
-        if where.get("axis") not in AXES:
-            return ()
-        k = int(where["link"])
-        vector = link_axes(robot.chain).vectors[k - 1, AXES.index(where["axis"])]
-        return (Placed(k + 1, turn=vector * only(parameters)),)
-
-    def sentence(self, place, parameters):
-        return f"{place.where['axis']} of link {place.where['link']} is off by {quantity(parameters[0])}."
 
 
 EFFECT = LinkTwist()
