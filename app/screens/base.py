@@ -40,8 +40,10 @@ class _View:
         self._setup = ui.add_folder(t("base.cell"))
         with self._setup:
             own = context.model.name if context.model.name in names else names[0]
+            self._names = {robot_named(name).said("title", context.language): name for name in names}
+            titles = {name: title for title, name in self._names.items()}
             self._robots = [
-                ui.add_choice(t("base.robot_number", number=k + 1), names, value=start)
+                ui.add_choice(t("base.robot_number", number=k + 1), tuple(self._names), value=titles[start])
                 for k, start in enumerate((own, "ur10e" if "ur10e" in names else names[-1]))
             ]
             self._nests = ui.add_check(t("base.nests"), True, hint=t("base.nests_hint"))
@@ -87,7 +89,7 @@ class _View:
 
     def _open(self) -> None:
         context = self._context
-        first, second = (str(robot.value) for robot in self._robots)
+        first, second = (self._names[str(robot.value)] for robot in self._robots)
         context.do(
             OpenCell(
                 first,

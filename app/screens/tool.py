@@ -42,11 +42,13 @@ class _View:
         ui, t = context.ui, context.t
         self.setup = Setup(context, self._words)
         self._next = ui.add_html("")
-        self._record = ui.add_button(t("tool.record"))
-        context.clicked(self._record, self._record_next)
+        # In the order in which they are pressed: to the ghost, to the spike, record.
+        self._next_touch = NextTouch(context, self._words)
         self._assist = ui.add_button(t("tool.assist_touch"), hint=t("tool.assist_hint"), rank="plain")
         context.clicked(self._assist, self._help)
-        self._next_touch = NextTouch(context, self._words)
+        self._record = ui.add_button(t("tool.record"))
+        context.clicked(self._record, self._record_next)
+        self._next_touch.explain()
         self._direct = DirectEntry(context, self._words)
         self._refused = ui.add_html("", visible=False)
         self._calculate = ui.add_button(t("tool.calculate"))

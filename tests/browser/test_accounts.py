@@ -81,7 +81,7 @@ def test_a_trainee_joins_works_and_leaves_on_a_phone(person, school, pictures):
     page.get_by_label("Class code").fill(school.at.code.upper())
     page.get_by_label("Your name").fill("Li Wei")
     page.get_by_label("PIN").fill("1234")
-    page.get_by_role("button", name="Come in").click()
+    page.get_by_role("button", name="Join").click()
     assert "six" in page.get_by_text("choose a PIN").inner_text()
     page.get_by_test_id("refused").wait_for()
     assert (
@@ -91,7 +91,7 @@ def test_a_trainee_joins_works_and_leaves_on_a_phone(person, school, pictures):
     fits(page)
     pictures(page, "account_join_refused_phone")
     page.get_by_label("PIN").fill(PIN)
-    page.get_by_role("button", name="Come in").click()
+    page.get_by_role("button", name="Join").click()
     page.get_by_test_id("status-state").filter(has_text="ready").wait_for()
     pictures(page, "account_pendant_phone")
     page.get_by_test_id("account").click()

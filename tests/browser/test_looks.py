@@ -225,3 +225,35 @@ def test_the_first_paint_comes_soon_and_the_page_is_light(chromium, served):
     print(f"first paint {min(paints):.0f} ms of {[round(p) for p in paints]}, page {weight} bytes")
     assert min(paints) < FIRST_PAINT_MS
     assert 20_000 < weight < WEIGHT
+
+
+#: What another language brings: the screens anew, and the first of them alone for a moment.
+_ANEW = """async () => {
+    const { update } = await import('./static/panel.js');
+    const screen = (key, id) => ({ id, kind: 'screen', key, label: key, order: id, visible: true });
+    const open = () => document.querySelector('#tabs [aria-selected=true]').dataset.key;
+    const seen = [];
+    update({ whole: true, removed: [], widgets: [screen('tool', 900)] });
+    seen.push(open());
+    update({ whole: false, removed: [], widgets: [screen('sessions', 901)] });
+    seen.push(open());
+    return seen;
+}"""
+
+
+def test_the_open_screen_stays_open_while_screens_are_made_anew(sit_down, brisk):
+    person = sit_down("jby50")
+    person.screen("sessions")
+    assert person.page.evaluate(_ANEW) == ["tool", "sessions"]
+
+
+def test_every_fact_of_the_top_line_that_is_shown_says_something(sit_down, brisk):
+    person = sit_down("ur10e")
+    person.page.evaluate("() => { document.getElementById('touch').textContent = ''; }")
+    shown = person.page.evaluate(
+        """() => [...document.querySelectorAll('#facts div')].filter((one) => one.checkVisibility())
+            .map((one) => one.querySelector('dd').textContent)"""
+    )
+    assert len(shown) >= 5 and all(shown)
+    robot = person.page.locator("#robot")
+    assert robot.evaluate("one => one.scrollHeight <= one.clientHeight + 1"), "maker and type are cut off"

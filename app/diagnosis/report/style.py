@@ -1,29 +1,31 @@
 """The page's look: calm on a screen, true on A4; colours that stay apart for colour-blind eyes."""
 
-#: Of the pictures alone; one rule a line, so that the pendant can confine them to its plots.
+#: Of the pictures alone; one rule a line, so that the pendant can confine them to its plots. Every colour has a name:
+#: here it is paper's, in the pendant its theme's (`panel.css`).
 PICTURES = """
 svg{display:block;width:100%;height:auto;font-family:inherit}
-.tick{font-size:9px;fill:#5b6873}.label{font-size:10px;fill:#1c2730}.value{font-size:10px;fill:#1c2730}
+.tick{font-size:9px;fill:var(--soft)}.label{font-size:10px;fill:var(--ink)}.value{font-size:10px;fill:var(--ink)}
 .end{text-anchor:end}.mid{text-anchor:middle}
-.grid{stroke:#e6eaee;stroke-width:.8}.zero{stroke:#9aa5af;stroke-width:.9}
-.fill-before{fill:var(--before)}.fill-after{fill:var(--after)}.fill-given{fill:#2f8f5b}
+.grid{stroke:var(--grid);stroke-width:.8}.zero{stroke:var(--noise);stroke-width:.9}
+.fill-before{fill:var(--before)}.fill-after{fill:var(--after)}.fill-given{fill:var(--given)}
 .noise{stroke:var(--noise);stroke-width:1.4;stroke-dasharray:5 3}
 .dot{fill:none;stroke-linecap:round;stroke-width:3.2}.dot.before{stroke:var(--before);opacity:.45}
-.dot.after{stroke:var(--after);opacity:.55}.dot.place{stroke:#1c2730;stroke-width:2.2;opacity:.6}
+.dot.after{stroke:var(--after);opacity:.55}.dot.place{stroke:var(--ink);stroke-width:2.2;opacity:.6}
 .mean,.halo,.trace,.stroke{fill:none;stroke-linejoin:round;stroke-linecap:round}
-.halo{stroke:#fff;stroke-width:4.6}.mean{stroke-width:2.2}
-.stroke{stroke-width:1.2}.trace{stroke-width:1}.trace.measured{stroke:#1c2730;stroke-width:1.1}
-.trace.missed{stroke:#1c2730;stroke-width:.6;opacity:.55}
+.halo{stroke:var(--paper);stroke-width:4.6}.mean{stroke-width:2.2}
+.stroke{stroke-width:1.2}.trace{stroke-width:1}.trace.measured{stroke:var(--ink);stroke-width:1.1}
+.trace.missed{stroke:var(--ink);stroke-width:.6;opacity:.55}
 .mean.before,.stroke.before,.trace.before{stroke:var(--before)}
-.mean.after,.stroke.after,.trace.after{stroke:var(--after)}.stroke.aside{stroke:#aab3bb}
-.flag{fill:#a3262a}.flag-number{font-size:9px;font-weight:600;fill:#fff}
-.window{fill:#f3d9d9}.now{stroke:#a3262a;stroke-width:1.4}
+.mean.after,.stroke.after,.trace.after{stroke:var(--after)}.stroke.aside{stroke:var(--noise)}
+.flag{fill:var(--bad)}.flag-number{font-size:9px;font-weight:600;fill:#fff}
+.window{fill:var(--window)}.now{stroke:var(--bad);stroke-width:1.4}
 """
 
 CSS = (
     """
 :root{--ink:#1c2730;--soft:#5b6873;--rule:#d9dfe4;--paper:#fff;--tint:#f5f7f9;
---before:#d97b16;--after:#1866ad;--noise:#7b8794;--good:#1d7a4c;--warn:#a15c00;--bad:#a3262a}
+--before:#d97b16;--after:#1866ad;--noise:#7b8794;--good:#1d7a4c;--warn:#a15c00;--bad:#a3262a;
+--grid:#e6eaee;--window:#f3d9d9;--given:#2f8f5b}
 *{box-sizing:border-box}
 html{background:#e9edf0;-webkit-print-color-adjust:exact;print-color-adjust:exact}
 body{margin:0 auto;max-width:210mm;background:var(--paper);color:var(--ink);padding:15mm 16mm 14mm;

@@ -55,10 +55,9 @@ def trace(
 
 
 def _framed(picture: str, testid: str, language: str) -> str:
-    """On white in light and dark pages alike: the colours were chosen for paper."""
+    """The report's drawing in the page's colours (`panel.css`)."""
     return html.Markup(  # drawn by ours, every text in it escaped where it is drawn (report/drawing/svg.py)
-        f'<div class="tf-plot" data-testid="{testid}" style="--before:#d97b16;--after:#1866ad;--noise:#7b8794;'
-        f'background:#fff;border-radius:4px;margin:4px 8px;padding:3px">'
+        f'<div class="tf-plot" data-testid="{testid}">'
         f"<style>{_confined()}</style>{translated(picture, language)}</div>"
     )
 

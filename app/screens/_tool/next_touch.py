@@ -34,7 +34,7 @@ _ONE = threading.Lock()
 
 
 class NextTouch:
-    """A few lines and a button; the ghost stands in the scene.
+    """A button, and a few lines that `explain` places; the ghost stands in the scene.
 
     Args:
         context: where it is shown.
@@ -44,7 +44,6 @@ class NextTouch:
     def __init__(self, context: Context, words: Words):
         self._context, self._words = context, words
         ui, t = context.ui, context.t
-        self._lines = ui.add_html("", visible=False)
         self._go = ui.add_button(t("tool.propose"), hint=t("tool.propose_hint"), rank="plain", visible=False)
         context.clicked(self._go, self.go)
         self._asked: tuple[object, ...] = ()
@@ -53,6 +52,10 @@ class NextTouch:
         self.proposal: Proposal | None = None
         self._refused = ""
         self._closed = False
+
+    def explain(self) -> None:
+        """What a touch would bring stands here: below the keys, which are pressed every time."""
+        self._lines = self._context.ui.add_html("", visible=False)
 
     def refresh(self, state: SessionState) -> None:
         """Asks for the best next touch where the points, the mode or the arm changed."""

@@ -55,7 +55,7 @@ export function greet(hello) {
   $("language").replaceChildren(...Object.entries(choices.languages).map(([key, name]) => new Option(name, key)));
   $("language").value = choices.language;
   segment($("frames"), choices.frames, (key) => t("jog.frame_" + key), (key) => say({ t: "choose", what: "frame", value: key }));
-  segment($("increments"), choices.increments, (key) => t("jog.step_" + key), (key) => say({ t: "choose", what: "increment", value: key }));
+  segment($("increments"), choices.increments, (key) => t("jog.step_" + key).replace(/mm\s/, "mm\n"), (key) => say({ t: "choose", what: "increment", value: key }));
   segment($("views"), choices.views, (key) => t("move.view_" + key), (key) => { say({ t: "choose", what: "view", value: key }); mark($("views"), key); });
   mark($("views"), "");
   segment($("handles"), ["both", "shift", "turn"], (key) => t("move.handle_" + key), (key) => { say({ t: "choose", what: "handle", value: key }); mark($("handles"), key); });

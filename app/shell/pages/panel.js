@@ -229,7 +229,8 @@ function draw(data) {
 function tabs() {
   const screens = [...known.values()].filter((entry) => entry.data.kind === "screen");
   if (!screens.length) return;
-  if (!screens.some((entry) => entry.data.key === active)) active = screens[0].data.key;
+  // While screens are made anew, in another language, the open one may not be there yet: it stays the one that is wanted.
+  const shown = screens.some((entry) => entry.data.key === active) ? active : screens[0].data.key;
   const bar = document.getElementById("tabs");
   const shape = screens.map((entry) => entry.data.key + entry.data.label).join();
   if (bar.dataset.shape !== shape) {
@@ -244,8 +245,8 @@ function tabs() {
       return button;
     }));
   }
-  for (const button of bar.children) button.setAttribute("aria-selected", String(button.dataset.key === active));
-  for (const entry of screens) entry.element.hidden = entry.data.key !== active;
+  for (const button of bar.children) button.setAttribute("aria-selected", String(button.dataset.key === shown));
+  for (const entry of screens) entry.element.hidden = entry.data.key !== shown;
 }
 
 export function openScreen(key) {
