@@ -23,9 +23,13 @@ from app.diagnosis.models.dynamic.smoothing import motion_of
 from app.diagnosis.models.dynamic.two_mass import Behind, twist
 from app.diagnosis.observations.joint_log import read_log
 from app.kinematics import load_robot
+from app.proof.generator.effects.motion.elastic_joint import own_inertia
 from app.proof.generator.effects.term import Request
+from app.proof.generator.motion.making import make_motion
+from app.proof.generator.motion.writing import write_motion
+from app.proof.generator.urdf_writing import write_arm
 from app.recordings import read_table
-from tests.diagnosis.dynamic.elastic import PLAN, elastic, made, thinned, told
+from tests.diagnosis.dynamic.elastic import PLAN, elastic, made, pendulum, thinned, told
 from tests.diagnosis.dynamic.simulator import measure, swing, write
 
 NEAR = 0.1  # relative
@@ -200,3 +204,21 @@ def test_where_motor_and_link_are_both_recorded_their_difference_tells_the_sprin
 def test_a_motor_that_only_reads_otherwise_is_no_spring(tmp_path):
     robot, table = _both_sides(tmp_path, 563, 1e7, 0.0, noise=2e-4)
     assert not elastic(diagnose(table, robot))
+
+
+def test_without_masses_the_resonance_and_its_damping_are_what_is_told(tmp_path):
+    arm = pendulum()
+    bare = arm.changed(masses=np.zeros(1))
+    write_arm(bare, tmp_path / "bare.urdf")
+    log = make_motion(PLAN, arm, bare, [Request("elastic_joint", {"joint": 1})], np.random.default_rng(571))
+    write_motion(log, tmp_path / "log.csv", "bare.urdf")
+    found = diagnose(read_table(tmp_path / "log.csv"), load_robot(str(tmp_path / "bare.urdf")))
+    (one,) = elastic(found)
+    values, true = {p.name: p.value for p in one.parameters}, log.terms[0].parameters
+    inertia = float(np.mean(own_inertia(arm, log.cell.q, 0)))
+    assert values["resonance"] == pytest.approx(
+        np.sqrt(true["stiffness"] / inertia) / (2.0 * np.pi), rel=0.5 * NEAR
+    )
+    ratio = 0.5 * true["damping"] / np.sqrt(true["stiffness"] * inertia)
+    assert values["damping_ratio"] == pytest.approx(ratio, rel=2.0 * NEAR)
+    assert "stiffness" not in values and "no masses" in one.sentence

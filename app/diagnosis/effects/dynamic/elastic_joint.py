@@ -14,12 +14,14 @@ Source: Spong (1987), Modeling and control of elastic joint robots, J. Dyn. Sys.
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import replace
 from typing import ClassVar
 
 import numpy as np
 
 from app.diagnosis.effects.dynamic._law import Law, Torques, Values, Where, choice
 from app.diagnosis.effects.effect import Place
+from app.diagnosis.models.dynamic.every_sample import EverySample
 from app.diagnosis.models.dynamic.resonance import resonance_of
 from app.diagnosis.models.dynamic.state import State
 from app.diagnosis.models.dynamic.two_mass import Behind, twist
@@ -42,10 +44,17 @@ class ElasticJoint(Law):
         "damping": "Nm s/rad",
         "inertia": "kg m^2",
         "share": "1",
+        "resonance": "Hz",
+        "damping_ratio": "1",
     }
     linear = ("share",)
-    bent: ClassVar = {"stiffness": 0.03, "damping": 0.3}
-    rough: ClassVar = {"stiffness": 0.002, "damping": 0.02}  # smoothed motion; what a twist changes in speeds
+    bent: ClassVar = {"stiffness": 0.03, "damping": 0.3, "resonance": 0.015, "damping_ratio": 0.3}
+    rough: ClassVar = {
+        "stiffness": 0.002,
+        "damping": 0.02,
+        "resonance": 0.001,
+        "damping_ratio": 0.02,
+    }  # smoothed motion; what a twist changes in speeds
     follows_load = True
     both_sides = "gravity_torque"
     located_by = ("joint",)
@@ -60,6 +69,9 @@ class ElasticJoint(Law):
             heard = resonance_of(situation, j)
             if heard is not None:
                 fixed = {"stiffness": heard.stiffness, "damping": heard.damping, "inertia": heard.inertia}
+                if not heard.inertia:  # without masses, what they ring with is all that a log tells
+                    turn = float(np.sqrt(heard.stiffness))
+                    fixed = {"resonance": turn / (2.0 * np.pi), "damping_ratio": 0.5 * heard.damping / turn}
                 where = {"joint": j + 1, "driver": self.driver}
                 found.append(Place(where, fixed, cost=choice(TRIED)))
         return found
@@ -69,12 +81,15 @@ class ElasticJoint(Law):
             where.get("driver") == self.both_sides
         ):  # the log has the link's angle: its torque is the rigid one
             return {}
-        return super().torque(state, where, parameters)
+        size = parameters["inertia" if "resonance" in parameters else "share"]
+        return {j: size * c[:, 0] for j, c in self.columns(state, Place(where, dict(parameters))).items()}
 
     def columns(self, columns: State, place: Place) -> Torques:
         joint, every = int(place.where["joint"]) - 1, columns.every
         if every is None:
             return {joint: np.zeros((len(columns.t), 1))}
+        if "resonance" in place.fixed:
+            return {joint: self._of_unknown_link(columns, every, joint, place.fixed)}
         inertia, weight = every.inertia(joint), every.weight(joint)
         rigid = every.rigid[:, joint]
         added = columns.torque[:, joint] - every.pooled(rigid)  # loads and masses that were found
@@ -89,14 +104,38 @@ class ElasticJoint(Law):
         )
         return {j: -(inertia[:, j] * push + weight[:, j] * turned)[:, None] for j in range(columns.joints)}
 
+    def _of_unknown_link(self, columns: State, every: EverySample, joint: int, fixed: Values) -> np.ndarray:
+        """(M, 1) torque per kg m^2 that swings behind the joint, driven by its acceleration alone."""
+        push = np.interp(every.t, columns.t, columns.qdd[:, joint])
+        turn = 2.0 * np.pi * fixed["resonance"]
+        behind = Behind(push, np.ones(len(push)), np.zeros(len(push)))
+        _, swings = twist(every.t, behind, turn**2, 2.0 * fixed["damping_ratio"] * turn, every.runs)
+        return -every.pooled(swings)[:, None]
+
+    def saved(self, place: Place, values: np.ndarray) -> dict[str, float]:
+        return {"inertia" if "resonance" in place.fixed else "share": float(values[0]), **place.fixed}
+
+    def reported(self, place: Place, values: np.ndarray, covariance: np.ndarray) -> tuple[Parameter, ...]:
+        found = super().reported(place, values, covariance)
+        return (replace(found[0], std=float(np.sqrt(max(covariance[0, 0], 0.0)))), *found[1:])
+
     def widths(self, situation: State, place: Place, found: Torques | None = None) -> np.ndarray:
-        return np.ones(1)
+        return super().widths(situation, place, found) if "resonance" in place.fixed else np.ones(1)
 
     def lawful(self, parameters: Values) -> bool:
+        if "resonance" in parameters:
+            return parameters["inertia"] > 0.0
         return SHARE[0] < parameters["share"] < SHARE[1]
 
     def sentence(self, place: Place, parameters: tuple[Parameter, ...]) -> str:
         values = {p.name: p for p in parameters}
+        if "resonance" in values:
+            ratio = values["damping_ratio"].value
+            return (
+                f"Joint {place.where['joint']} twists: what swings behind it rings at {quantity(values['resonance'])}, "
+                f"at {ratio:.2g} of the damping that would let nothing ring. The description has no masses: stiffness "
+                "and damping themselves ask for the link's inertia."
+            )
         stiffness, damping, inertia = values["stiffness"], values["damping"], values["inertia"].value
         turn = float(np.sqrt(stiffness.value / inertia))
         frequency = turn / (2.0 * np.pi)

@@ -11,7 +11,7 @@ a resonance is the two-mass equation solved, many times, beside everything a rig
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
@@ -45,7 +45,8 @@ class Resonance:
 
     Args:
         stiffness [Nm/rad], damping [Nm s/rad].
-        inertia: mean of the described link's over the log [kg m^2].
+        inertia: mean of the described link's over the log [kg m^2]; 0 where the description has no masses: then
+            stiffness and damping are per kg m^2.
     """
 
     stiffness: float
@@ -66,18 +67,26 @@ def resonance_of(state: State, joint: int) -> Resonance | None:
 
 
 def _found(state: State, joint: int) -> Resonance | None:
-    every, rigid = state.every, state.torque[:, joint]
+    every = state.every
     assert every is not None
-    inertia = every.inertia(joint, STRETCH / 10.0)[:, joint]
+    measured = every.pooled(every.measured(joint))
+    if np.ptp(state.torque[:, joint]) > 0.0:
+        rigid, inertia = state.torque[:, joint], every.inertia(joint, STRETCH / 10.0)[:, joint]
+    else:  # what the masses must give, whatever they are, behind a link of 1 kg m^2
+        rigid, inertia = _fitted_rigid(state, joint, measured), np.ones(len(state.t))
     step = float(np.median(np.diff(state.t))) if len(state.t) > 1 else 0.0
     fastest = 1.0 / (A_PERIOD * step) if step > 0.0 else 0.0
     if fastest <= SLOWEST or np.ptp(rigid) <= 0.0 or not inertia.min() > 0.0:
         return None
-    measured = every.pooled(every.measured(joint))
     heard = _heard(measured - rigid, rigid, inertia, step, fastest)
     if heard is None:
         return None
-    return _searched(state, joint, measured, heard, fastest)
+    if np.ptp(state.torque[:, joint]) > 0.0:
+        inertia = every.inertia(joint)[:, joint]
+        behind = Behind(rigid, inertia, every.weight(joint)[:, joint])
+        return _searched(state, joint, measured, behind, heard, fastest)
+    found = _searched(state, joint, measured, Behind(rigid, inertia, np.zeros(len(rigid))), heard, fastest)
+    return None if found is None else replace(found, inertia=0.0)
 
 
 def _heard(
@@ -122,13 +131,10 @@ def _gain(rest: np.ndarray, load: np.ndarray, more: np.ndarray) -> tuple[float, 
 
 
 def _searched(
-    state: State, joint: int, measured: np.ndarray, heard: float, fastest: float
+    state: State, joint: int, measured: np.ndarray, behind: Behind, heard: float, fastest: float
 ) -> Resonance | None:
     """Stiffness and damping that explain the torque best over time."""
-    every = state.every
-    assert every is not None
-    rigid, inertia = state.torque[:, joint], every.inertia(joint)[:, joint]
-    behind, mean = Behind(rigid, inertia, every.weight(joint)[:, joint]), float(inertia.mean())
+    rigid, inertia, mean = behind.rigid, behind.inertia, float(behind.inertia.mean())
     basis = _rigid_joint(state, joint)
     runs = _runs(state.t)
 
@@ -185,6 +191,16 @@ def _unsure(twisted, at: np.ndarray, part: float, left: np.ndarray) -> tuple[flo
     covariance = noise * np.linalg.pinv(gram / size[:, None] / size, rcond=1e-10) / size[:, None] / size
     spread = np.sqrt(np.maximum(np.diag(covariance), 0.0))
     return 2.0 * float(spread[1]), float(spread[2])
+
+
+def _fitted_rigid(state: State, joint: int, measured: np.ndarray) -> np.ndarray:
+    """(M,) torque of the masses that explain the measured one best beside friction and an offset [Nm]."""
+    qd = state.qd[:, joint]
+    masses = state.regressor[:, joint, PER_LINK * joint :]
+    columns = np.column_stack([masses, np.ones(len(qd)), qd, qd * np.abs(qd), state.direction(joint)])
+    size = np.maximum(np.sqrt(np.mean(columns**2, axis=0)), 1e-12)
+    weights = np.linalg.lstsq(columns / size, measured, rcond=1e-8)[0] / size
+    return masses @ weights[: masses.shape[1]]
 
 
 def _rigid_joint(state: State, joint: int) -> np.ndarray:
