@@ -1,5 +1,6 @@
 """Makes the README's pictures from the running program: `python -m tests.browser.picture [FOLDER]`."""
 
+import subprocess
 import sys
 import tempfile
 from pathlib import Path
@@ -53,6 +54,44 @@ def compare(person: Operator) -> None:
     person.page.get_by_test_id("compare-verdict").wait_for(timeout=120_000)
 
 
+#: An arm of many small faults, as the command line makes and diagnoses it.
+_FAULTS = (
+    "joint_zero:joint=3",
+    "joint_zero:joint=5",
+    "joint_compliance:joint=2",
+    "gear_eccentricity:joint=2",
+)
+_SHEET = {"width": 860, "height": 1000}
+
+
+def report(browser, path: Path) -> None:
+    """The first page of a report."""
+    with tempfile.TemporaryDirectory() as folder:
+        teachframe = [sys.executable, "-m", "app"]
+        wrong = [part for fault in _FAULTS for part in ("--effect", fault)]
+        made = [
+            "--robot",
+            "r2000ic_165f",
+            "--kind",
+            "tracker",
+            "--samples",
+            "250",
+            "--seed",
+            "8",
+            "--clutter-mm",
+            "0.1",
+        ]
+        subprocess.run([*teachframe, "simulate", f"{folder}/sim.csv", *made, *wrong], check=True)
+        subprocess.run(
+            [*teachframe, "diagnose", f"{folder}/sim.csv", "--report", f"{folder}/sim.html"], check=True
+        )
+        page = browser.new_context(viewport=_SHEET).new_page()
+        page.goto(f"file://{folder}/sim.html")
+        page.screenshot(path=str(path))
+        make_light(path)
+        page.context.close()
+
+
 PICTURES = {"pendant": paper, "training": exercise, "two_robots": two_robots, "compare": compare}
 ROBOTS = {"pendant": "jby50", "training": "jby50", "two_robots": "irb120", "compare": "ur10e"}
 
@@ -70,6 +109,9 @@ def take(folder: Path, names: list[str]) -> None:
         browser = playwright.chromium.launch(executable_path=chromium_path(), args=FLAGS)
         try:
             for name in names:
+                if name == "report":
+                    report(browser, folder / "report.png")
+                    continue
                 context = browser.new_context(viewport=SCREEN)
                 person = Operator(context.new_page(), server, ROBOTS[name])
                 person.scene_is_there()
@@ -93,4 +135,4 @@ def make_light(path: Path) -> None:
 
 
 if __name__ == "__main__":
-    take(Path(sys.argv[1] if len(sys.argv) > 1 else "static/pictures"), sys.argv[2:] or list(PICTURES))
+    take(Path(sys.argv[1] if len(sys.argv) > 1 else "static/pictures"), sys.argv[2:] or [*PICTURES, "report"])
