@@ -26,7 +26,8 @@ def finish(context: Context, action: Finish) -> ScoreCard | None:
     if card.given_up:
         context.say("info", context.t("training.gave_up"))
     else:
-        context.say("good", context.t("training.scored", total=f"{card.total:.0f}"))
+        level = "good" if card.passed else "warning"
+        context.say(level, context.t("training.scored", total=f"{card.total:.0f}"))
         show(context, trainee, card)
     return card
 
