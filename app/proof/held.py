@@ -92,6 +92,8 @@ def _impossible(effect: ModelEffect, kind: str, samples: int, seconds: float) ->
         return f"it begins at row {where['from_row']} of {samples}"
     if kind == "motion" and float(where.get("from_s", 0.0)) >= seconds:
         return f"it begins after {where['from_s']:g} s, the log ends at {seconds:g} s"
+    if "resonance" in effect.parameters:
+        return "learnt without masses, it has a resonance and no stiffness"
     if kind in _NEEDED and effect.effect == _NEEDED[kind]:
         return f"a {kind} recording cannot show it"
     if effect.effect == "wrong_convention" and effect.parameters.get(_FIXED + "kind") not in (

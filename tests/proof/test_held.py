@@ -134,3 +134,10 @@ def test_what_holds_for_one_log_only_is_left_out_of_a_simulation_and_said():
     )
     assert not terms
     assert ["rest_friction" in left_out[0], "smooth_torque" in left_out[1]] == [True, True]
+
+
+def test_a_twist_that_was_learnt_without_masses_is_left_out_of_a_simulation():
+    told = {"inertia": 0.8, "resonance": 9.4, "damping_ratio": 0.05}
+    model = SavedModel("motion", "ur10e", (ModelEffect("elastic_joint", {"joint": 2}, told),))
+    terms, (left_out,) = terms_of(model, "motion", "ur10e", samples=500, seconds=4.0)
+    assert not terms and "elastic_joint" in left_out and "stiffness" in left_out

@@ -102,3 +102,10 @@ def test_a_motion_effect_that_cannot_be_is_refused_in_one_line(option, told, tmp
     assert simulate(tmp_path, "--effect", option) == 2
     lines = capsys.readouterr().err.strip().splitlines()
     assert len(lines) == 1 and told in lines[0]
+
+
+@pytest.mark.parametrize("sizes", ["stiffness=-5", "damping=20", "stiffness=9000,damping=-1", "stiffness=1"])
+def test_a_spring_that_cannot_be_is_refused_in_a_line(sizes, tmp_path, capsys):
+    assert simulate(tmp_path, "--effect", f"elastic_joint:joint=2,{sizes}") == 2
+    (line,) = capsys.readouterr().err.strip().splitlines()
+    assert "elastic_joint" in line and "stiffness" in line

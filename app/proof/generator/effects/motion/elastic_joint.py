@@ -15,6 +15,7 @@ from functools import lru_cache
 
 import numpy as np
 
+from app.errors import InputError
 from app.proof.generator.dynamics import moving_torques
 from app.proof.generator.effects.motion._joint import JointTorque
 from app.proof.generator.effects.term import Size
@@ -24,6 +25,7 @@ BEFORE = 1.0  # s of the path before the first sample, so that the start has bee
 PASSES = 3
 FREQUENCY = (5.0, 14.0)  # Hz, as arms with harmonic drives have it
 SAMPLES = 9.0  # that a log must have in a period
+FARTHEST = 0.3  # rad of twist; no gear lives with more
 RATIO = (0.03, 0.12)  # of the damping at which nothing rings
 
 
@@ -52,10 +54,20 @@ class ElasticJoint(JointTorque):
         }
 
     def add(self, cell, term, world):
-        if term.parameters["stiffness"] > 0.0:
-            world.torque += swinging(
-                cell, term.where["joint"] - 1, *(term.parameters[s.name] for s in self.sizes)
+        stiffness, damping = (term.parameters[size.name] for size in self.sizes)
+        if not stiffness > 0.0 or not damping >= 0.0:
+            raise InputError(
+                f"effect {self.key}: stiffness={stiffness:g}, damping={damping:g}",
+                expected="a stiffness above 0 Nm/rad, a damping from 0 Nm s/rad",
             )
+        joint = term.where["joint"]
+        added, most = swinging(cell, joint - 1, stiffness, damping)
+        if not most < FARTHEST:
+            raise InputError(
+                f"effect {self.key}: a stiffness of {stiffness:g} Nm/rad does not hold what is behind joint {joint}",
+                expected=f"one under which it twists by less than {FARTHEST:g} rad",
+            )
+        world.torque += added
 
 
 def own_inertia(arm, q: np.ndarray, j: int) -> np.ndarray:
@@ -66,8 +78,8 @@ def own_inertia(arm, q: np.ndarray, j: int) -> np.ndarray:
 
 
 @lru_cache(maxsize=32)
-def swinging(cell, j: int, stiffness: float, damping: float) -> np.ndarray:
-    """(m, n) torque on top of the rigid arm's while joint j (from 0) twists [Nm]."""
+def swinging(cell, j: int, stiffness: float, damping: float) -> tuple[np.ndarray, float]:
+    """(m, n) torque on top of the rigid arm's while joint j (from 0) twists [Nm], and the farthest it does [rad]."""
     inertia = own_inertia(cell.arm, cell.q[:: max(1, cell.m // 200)], j)
     period = 2.0 * np.pi * np.sqrt(float(inertia.min()) / stiffness)
     count = int(np.ceil((cell.t[-1] - cell.t[0] + BEFORE) * A_PERIOD / period)) | 1  # odd: pairs of steps
@@ -75,6 +87,8 @@ def swinging(cell, j: int, stiffness: float, damping: float) -> np.ndarray:
     q, qd, qdd = cell.path(t)
     twist, rate, push = np.zeros((3, len(t)))
     for _ in range(PASSES):
+        if not np.abs(twist).max() < FARTHEST:
+            return np.zeros((cell.m, cell.arm.n)), np.inf
         there = [v.copy() for v in (q, qd, qdd)]
         there[0][:, j] -= twist
         there[1][:, j] -= rate
@@ -83,7 +97,8 @@ def swinging(cell, j: int, stiffness: float, damping: float) -> np.ndarray:
     for value, twisted in zip((q, qd, qdd), (twist, rate, push), strict=True):
         value[:, j] -= twisted
     swung = moving_torques(cell.arm, q, qd, qdd) - moving_torques(cell.arm, *cell.path(t))
-    return np.stack([np.interp(cell.t, t, column) for column in swung.T], axis=1)
+    added = np.stack([np.interp(cell.t, t, column) for column in swung.T], axis=1)
+    return added, float(np.abs(twist).max())
 
 
 def _integrated(
