@@ -13,9 +13,10 @@ SLOWEST = 2.5
 #: of 40 places that are tried, the best reaches 8 by chance.
 HEARD = 11.0
 
-#: nats it must be better by in the search over time, beside all else that the joint may have: a whole series of
-#: stiffnesses and dampings is tried.
-FOUND = 15.0
+#: nats it must be better by in the search over time, beside all else that the joint may have, rows counted as if they
+#: were independent. In real logs they hang together and models are not complete: on a UR10e 18 made a name by which the
+#: log was predicted worse, and a joint heard with 49 predicted it better. Springs that were put in have 44 and more.
+FOUND = 35.0
 
 #: Share of the described link that swings: far from one, what rings is not the link on the joint's spring.
 SHARE = (0.5, 1.6)
