@@ -133,6 +133,7 @@ def _state(robot, cell) -> State:
         window=0.0,
         sliding=np.zeros(n, bool),
         width=np.full(n, STANDSTILL),
+        slip=np.zeros(n),
         still=np.full(n, STANDSTILL),
         size=np.ones(n),
         link_mass=np.ones(n),

@@ -32,7 +32,8 @@ def bend(study: Study) -> None:
                 place = place_at(float(np.exp(log_value)))
                 return -study.events.gain(rest, candidate.law, place)
 
-            low, high = np.log(start) - reach, np.log(start) + reach
+            least = max(candidate.law.least(study.state, candidate.place, name), start * np.exp(-reach))
+            low, high = np.log(min(least, start)), np.log(start) + reach
             best = minimize_scalar(worse, bounds=(low, high), method="bounded", options={"xatol": reach / 30})
             if -float(best.fun) > -worse(np.log(start)) + BETTER:
                 place = place_at(float(np.exp(best.x)))

@@ -108,7 +108,7 @@ class Events:
             if gain < max(MARGIN, 0.3 * best):
                 continue
             law = self.laws[key]
-            cost = np.log(PIECES) * len(law.ends)
+            cost = np.log(PIECES) * len(where)
             build = lambda law=law, where=where, cost=float(cost): self._take(selection, law, where, cost)  # noqa: E731
             yield Offer(gain - MARGIN, 1.0, build)
 
@@ -133,18 +133,40 @@ class Events:
         first = np.flatnonzero((share[edges] >= EDGE) & (share[edges] <= 1.0 - EDGE))
         for key, law in self.laws.items():
             if len(law.ends) == 1:
-                begin, last = first, np.full(len(first), PIECES)
-                choices = float(np.log(max(len(first), 1)))
+                begin, last = self._spells(first, share[edges], law)
+                choices = np.where(last < PIECES, 2.0, 1.0) * float(np.log(max(len(first), 1)))
             else:
                 begin, last = self._windows(share[edges] * PIECES)
-                choices = 2.0 * float(np.log(PIECES))
+                apart = [self._apart(selection, law, at(x), at(y)) for x, y in zip(begin, last, strict=True)]
+                begin, last = begin[apart], last[apart]
+                choices = np.full(len(begin), 2.0 * float(np.log(PIECES)))
             if not len(begin):
                 continue
-            gain = gains(gram, cross, right, inverse, begin, last, self._own[key])
+            gain = gains(gram, cross, right, inverse, begin, last, self._own[key]) - choices
             best = int(gain.argmax())
-            where = dict(zip(law.ends, (at(begin[best]), at(last[best])), strict=False))
-            out.append((key, where, float(gain[best] - choices - 2.0)))
+            ends = law.ends if last[best] == PIECES or not law.until else (*law.ends, law.until)
+            where = dict(zip(ends, (at(begin[best]), at(last[best])), strict=False))
+            out.append((key, where, float(gain[best] - 2.0)))
         return out
+
+    @staticmethod
+    def _spells(first: np.ndarray, share: np.ndarray, law: Law) -> tuple[np.ndarray, np.ndarray]:
+        """First and last piece of what begins and stays, or, where the law may end again, lasts for a while.
+
+        Args:
+            first: pieces at which it may begin or end; share: (pieces + 1,) of the log's motion before each.
+        """
+        ends = [*(first.tolist() if law.until else []), PIECES]
+        pairs = [(x, y) for x in first.tolist() for y in ends if y > x and share[y] - share[x] >= EDGE]
+        begin, last = np.array(pairs, int).reshape(-1, 2).T
+        return begin, last
+
+    def _apart(self, selection: Selection, law: Law, since: float, until: float) -> bool:
+        """False near an event of this kind in a selection: what else pushes then is its shape, and none of its own."""
+        near = 2.0 * float(self.state.t[-1] - self.state.t[0]) / PIECES
+        labels = [self.evidence.groups[g].label for g in selection]
+        there = [c.place.where for c in labels if isinstance(c, Candidate) and c.law is law]
+        return all(until + near <= where["from_s"] or since - near >= where["to_s"] for where in there)
 
     @staticmethod
     def _windows(at_edges: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -185,7 +207,7 @@ class Events:
 
     def moved(self, selection: Selection, law: Law, place: Place) -> Place:
         """An event with its edges where they bring most beside a selection."""
-        where = {k: float(place.where[k]) for k in law.ends}
+        where = {k: float(place.where[k]) for k in (*law.ends, law.until) if k in place.where}
         return self._refined(selection, law, where, place.cost)[0]
 
     def _refined(
@@ -193,7 +215,7 @@ class Events:
     ) -> tuple[Place, float]:
         """Edges at single rows, each in turn at the most evidence; a contact may also swell and fade."""
         inverse, parts, residual = self._beside(selection)
-        once = len(law.ends) == 1
+        held, once = len(law.ends) == 1, len(where) == 1
         white = [z[:, self._own[law.key]] for z in self._whitened()]
         rows = len(residual[0])
         t = self.state.t[SKIPPED:]
@@ -202,10 +224,11 @@ class Events:
         if once:
             edges.append(rows)
         reach, least = 2 * rows // PIECES, max(int(SHORTEST / max(float(np.median(np.diff(t))), 1e-9)), 2)
+        least = int(EDGE * rows) if held else least
         for k in (0,) if once else (0, 1, 0, 1):
             low = max(0 if k == 0 else edges[0] + least, edges[k] - reach)
             high = max(min(edges[1] - least if k == 0 else rows, edges[k] + reach), low)
-            if once:
+            if held:
                 inside = np.flatnonzero((share >= EDGE) & (share <= 1.0 - EDGE))
                 low, high = max(low, int(inside[0])), max(min(high, int(inside[-1])), int(inside[0]))
             # Sums over the part that every trial has, and row by row over what it may have more.
@@ -221,9 +244,7 @@ class Events:
                 edges[k] = low + int(gain.argmax())
         step = float(np.median(np.diff(t)))
         times = [float(t[min(k, rows - 1)]) - (0.5 * step if k < rows else -step) for k in edges]
-        place = Place(
-            {"body": "tool", "driver": "time", **dict(zip(law.ends, times, strict=False))}, cost=cost
-        )
+        place = Place({"body": "tool", "driver": "time", **dict(zip(where, times, strict=False))}, cost=cost)
         best = self._at_exact_rows(selection, law, place, step)
         if law.swells:
             swelling = self._swelling(selection, law, place)
@@ -239,7 +260,7 @@ class Events:
         rows off as the noise remembers.
         """
         best = (self.gain(selection, law, place), place)
-        for end in law.ends:
+        for end in [end for end in (*law.ends, law.until) if end in place.where]:
             for rows in (-4, -3, -2, -1, 1, 2, 3, 4):
                 trial = Place(
                     {**best[1].where, end: place.where[end] + rows * step}, place.fixed, cost=place.cost

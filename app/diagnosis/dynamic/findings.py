@@ -15,6 +15,7 @@ from app.diagnosis.dynamic.pictures import evidence_of
 from app.diagnosis.dynamic.saving import effect_of, given_effects, readings, taught, undone
 from app.diagnosis.dynamic.shapes import spread_of
 from app.diagnosis.dynamic.solution import error_with, heldout_without, surprise
+from app.diagnosis.dynamic.withheld import withheld
 from app.diagnosis.model import ModelEffect, SavedModel
 from app.diagnosis.models.dynamic.both_sides import twist_findings
 from app.diagnosis.models.dynamic.commands import lag_findings
@@ -33,7 +34,7 @@ from app.diagnosis.result import (
     Quality,
 )
 from app.diagnosis.thresholds.naming import CERTAIN, UNNAMED_SHARE
-from app.diagnosis.thresholds.naming_logs import CHANGE, HOPELESS, NAME, RIPPLES, SHARE
+from app.diagnosis.thresholds.naming_logs import CHANGE, HOPELESS, NAME, RIPPLES
 from app.diagnosis.thresholds.noise import LEFT_P
 from app.diagnosis.wording import note
 
@@ -92,8 +93,9 @@ def build(fitted: Fitted, file: str, *, reference: Fitted | None = None) -> Diag
     unnamed = sum(m.share for m in found if m.candidate.law.family == UNNAMED)
     left = fitted.left
     shaped = [j for j, count in waves(study).items() if count > RIPPLES]
-    withheld = [m for m in found if m.gain >= NAME and m.share >= SHARE and not m.named and m.asks_for_a_name]
-    structure = bool(left.any()) or unnamed > UNNAMED_SHARE or bool(shaped) or bool(withheld)
+    mismatch = float(np.mean(before**2)) - noise.value**2 / study.samples.window
+    silent = withheld(study, fitted.solution, found, mismatch)
+    structure = bool(left.any()) or unnamed > UNNAMED_SHARE or bool(shaped) or bool(silent)
     foreign: tuple[str, ...] = ()
     if quality_after.heldout_rms > HOPELESS * float(np.sqrt(np.mean(np.var(bare.y, axis=0)))):
         findings, structure, foreign = (), True, (note("foreign"),)
@@ -106,7 +108,7 @@ def build(fitted: Fitted, file: str, *, reference: Fitted | None = None) -> Diag
     return Diagnosis(
         file=file, kind="motion", robot=robot.name, samples=len(log.t), verdict=verdict, noise=noise,
         before=quality_before, after=quality_after, findings=findings,
-        outliers=tuple(int(r) for r in log.dropped), leftover=_leftover(fitted, found, structure),
+        outliers=tuple(int(r) for r in log.dropped), leftover=_leftover(fitted, found, structure, silent),
         next_poses=poses, seconds=0.0, families=families, model=model.to_dict(),
         notes=(*_notes(fitted), *foreign, *advice),
         evidence=evidence_of(fitted, before, whole, effects),
@@ -253,14 +255,14 @@ def _with_members(
     )
 
 
-def _leftover(fitted: Fitted, found: list[Member], structure: bool) -> Leftover:
+def _leftover(fitted: Fitted, found: list[Member], structure: bool, silent: list[Member]) -> Leftover:
     study = fitted.study
     j = int(np.argmin(study.leftover_p))
     share = float(np.clip(sum(m.share for m in found if not m.named), 0.0, 1.0))
     if not structure:
         return Leftover(float(min(1.0, study.leftover_p[j] * study.design.joints)), {}, share)
     where: dict[str, object] = {"joint": j + 1}
-    unnamed = [m for m in found if not m.named and m.asks_for_a_name and m.gain >= NAME]
+    unnamed = silent or [m for m in found if not m.named and m.asks_for_a_name and m.gain >= NAME]
     if not fitted.left.any() and unnamed:
         where = dict(max(unnamed, key=lambda m: m.share).candidate.place.where)
     return Leftover(float(min(study.leftover_p[j], LEFT_P)), where, share)

@@ -215,7 +215,9 @@ def rivals(study: Study, member: Member) -> tuple[tuple[Candidate, float], ...]:
         other = study.label(k)
         short = own_gain - float(gain)
         key = (other.law.key, tuple(sorted(other.place.where.items())))
-        same = other.law is member.candidate.law and other.place.where == member.candidate.place.where
+        same = other.law is member.candidate.law and (  # an event at a slightly other time is the same one
+            other.law.windowed or other.place.where == member.candidate.place.where
+        )
         if k != g and not same and short < RIVAL and other.law.family != UNNAMED and key not in found:
             found[key] = (other, max(short, 0.0))
     return tuple(sorted(found.values(), key=lambda pair: pair[1]))[:6]

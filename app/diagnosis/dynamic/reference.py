@@ -18,7 +18,7 @@ import numpy as np
 from app.diagnosis.dynamic.families import families
 from app.diagnosis.dynamic.solution import solve
 from app.diagnosis.dynamic.study import Study
-from app.diagnosis.effects.dynamic._law import WIDTH, Law, Torques
+from app.diagnosis.effects.dynamic._law import Law, Torques, turn
 from app.diagnosis.effects.effect import Place, Quantity
 from app.diagnosis.model import ModelEffect
 from app.diagnosis.models.dynamic.library import Candidate, label, nominal
@@ -108,8 +108,8 @@ def known_from(fitted: Fitted) -> KnownBefore:
     for candidate, own in _members(study, held):
         place = candidate.place
         if candidate.law.blunt and "joint" in place.where:
-            width = float(study.state.width[int(place.where["joint"]) - 1])
-            place = Place(place.where, {**place.fixed, WIDTH: width})
+            of = [int(place.where[k]) - 1 for k in ("joint", "source_joint") if k in place.where]
+            place = Place(place.where, {**place.fixed, **turn(study.state, *of)})
         terms.append(Term(candidate.law, place, slice(len(columns), len(columns) + len(own))))
         columns += own.tolist()
     weights, covariance = solution.of(np.array(columns, int))

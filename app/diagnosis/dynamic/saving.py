@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from app.diagnosis.dynamic.names import Member
-from app.diagnosis.effects.dynamic._law import WIDTH
+from app.diagnosis.effects.dynamic._law import WIDTH, turn
 from app.diagnosis.model import ModelEffect, Taught
 from app.diagnosis.models.dynamic.library import laws
 from app.diagnosis.models.dynamic.saved import fingerprint, hypothesis_of
@@ -65,11 +65,8 @@ def effect_of(fitted: Fitted, member: Member) -> ModelEffect:
     law, place = member.candidate.law, member.candidate.place
     parameters = law.saved(place, member.values)
     if law.blunt and "joint" in place.where and WIDTH not in parameters:
-        joint = int(place.where["joint"]) - 1
-        width = float(fitted.study.state.width[joint])
-        if "source_joint" in place.where:
-            width = float(np.mean([width, fitted.study.state.width[int(place.where["source_joint"]) - 1]]))
-        parameters = {**parameters, WIDTH: width}
+        of = [int(place.where[k]) - 1 for k in ("joint", "source_joint") if k in place.where]
+        parameters = {**parameters, **turn(fitted.study.state, *of)}
     return ModelEffect(law.key, dict(place.where), parameters, named=member.named)
 
 

@@ -12,7 +12,7 @@ from app.diagnosis.dynamic.events import Events
 from app.diagnosis.dynamic.families import families
 from app.diagnosis.dynamic.following import follow_load
 from app.diagnosis.dynamic.rules import Rules
-from app.diagnosis.dynamic.sharpness import learnt_widths
+from app.diagnosis.dynamic.sharpness import learnt_turns
 from app.diagnosis.effects.dynamic._law import Law
 from app.diagnosis.effects.effect import Place
 from app.diagnosis.models.dynamic.design import TorqueDesign
@@ -23,6 +23,7 @@ from app.diagnosis.models.dynamic.noise import (
     excess,
     over_all,
     spectrum,
+    without_bursts,
     without_spikes,
 )
 from app.diagnosis.models.dynamic.samples import Samples
@@ -73,11 +74,11 @@ class Study:
 
     def __post_init__(self) -> None:
         samples = self.samples
-        width = learnt_widths(samples) if self.like is None else self.like.state.width
+        turn = learnt_turns(samples) if self.like is None else (self.like.state.width, self.like.state.slip)
         self.rigid = (
             samples.state.torque
         )  # with the masses and loads of laws taken for part of the description
-        self.state = samples.state.with_width(width)
+        self.state = samples.state.with_turn(*turn)
         self.base = samples.description if self.known is None else samples.description + self.known
         self.y = (samples.y - self.base) * samples.alive
         self.leftover_p, self.leftover_ratio = np.ones(self.y.shape[1]), np.ones(self.y.shape[1])
@@ -159,7 +160,8 @@ class Study:
             residual = without_spikes(self.y[:, j] - fitted)
             drawn[:, j] = fitted + residual
             taken = min(0.5 * len(kept), 60.0)
-            whiteners.append(over_all(spectrum(residual, self.samples.step, self.band, taken)))
+            quiet = without_bursts(residual)  # else an event would have to stand out of itself
+            whiteners.append(over_all(spectrum(quiet, self.samples.step, self.band, taken)))
         self.design.whiten(whiteners, drawn)
 
     def renew(self) -> None:

@@ -71,11 +71,13 @@ class InJoint:
         more: damping [Nm s/rad], damping2 [Nm s^2/rad^2], friction [Nm], armature [kg m^2], stiffness [Nm/rad],
             offset [Nm] -> how much.
         turns_over: speed [rad/s] over which its dry friction changes sign; 0 where that is not known.
+        turns_on: way [rad] on which it does; 0 where it follows the speed alone.
     """
 
     joint: int
     more: Mapping[str, float]
     turns_over: float = 0.0
+    turns_on: float = 0.0
 
 
 @dataclass(frozen=True, eq=False)

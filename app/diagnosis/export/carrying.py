@@ -74,6 +74,10 @@ def _turn(changes: tuple[Change, ...]) -> list[Left]:
             width, most = change.turns_over, abs(change.more["friction"])
             why = f"there it has its full size at once: up to {most:.3g} more, 1% of that at {_HUNDREDTH * width:.3g}"
             what = f"the turn of dry friction (joint {change.joint})"
+            if change.turns_on:
+                why = f"there it has its full size at once: up to {2.0 * most:.3g} more just after every turn"
+                out.append(Left(what, f"on a way of {change.turns_on:.3g}", why))
+                continue
             out.append(Left(what, f"over a speed of {width:.3g}", why))
     return out
 

@@ -8,6 +8,7 @@ from itertools import pairwise
 import numpy as np
 from scipy.ndimage import uniform_filter1d
 
+from app.diagnosis.observations.clock import going_on
 from app.diagnosis.observations.effort import effort_of
 from app.diagnosis.observations.joint_log_checks import (
     backwards_rows,
@@ -86,7 +87,9 @@ def read_log(table: Table, robot: RobotModel) -> Log:
     notes: list[str] = []
     table, borders = _worked_on(table, notes)
     order = joint_order(table, robot, notes)
-    t = table.tolerant("t")
+    t, turned_back = going_on(table.tolerant("t"))
+    if turned_back:
+        notes.append(note("clock_back", count=turned_back))
     q = _columns(table, "q", order)
     qd = temperature = commanded = None
     if table.has(*[f"qd{j}" for j in joints]):

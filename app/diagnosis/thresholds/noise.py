@@ -28,6 +28,10 @@ HIGHEST = 0.48
 #: Part of a band's frequencies that stays free, whatever was fitted.
 LEAST_SHARE = 0.4
 
+#: Times the middle one by which a stretch of a log is louder, to be something that happened: what a model leaves out
+#: comes and goes with the motion by a factor of two or three.
+BURST = 5.0
+
 #: p below which, and ratio to the noise beyond which, a joint has structure left in the band of its motion.
 LEFT_P, LEFT_RATIO = 2e-4, 1.7
 

@@ -24,6 +24,8 @@ Torques = dict[int, np.ndarray]
 SHARE = 0.3
 #: How a saved law of dry friction keeps its sharpness [rad/s or m/s].
 WIDTH = "fixed_width"
+#: ... and the way over which it turns [rad or m], where that is not at once.
+SLIP = "fixed_slip"
 #: nats: a law is one decision among its kind; the choice of place and form is paid by `Place.cost`.
 PENALTY = 4.0
 
@@ -40,6 +42,7 @@ class Law(Effect[State, State, np.ndarray]):
         follows_load: True where its columns are made of the torque that the gears carry.
         ends: keys of `where` that hold the times between which it acts, or the one from which on; it is searched for
             over the log where there are any.
+        until: key of `where` that holds the time at which it may be over again, of a law with one end.
         swells: True where it may rise and fall between its times, as half a sine.
         least_joints: an arm with fewer has no such thing.
         blunt: True where the direction of dry friction is in it: its sharpness is saved along.
@@ -79,6 +82,7 @@ class Law(Effect[State, State, np.ndarray]):
     carried = False
     follows_load = False
     ends: ClassVar[Sequence[str]] = ()
+    until = ""
     swells = False
     least_joints = 1
     blunt = False
@@ -155,7 +159,7 @@ class Law(Effect[State, State, np.ndarray]):
         if not self.in_joint:
             return ()
         more = {word: parameters.get(name, 0.0) for name, word in self.in_joint.items()}
-        return (InJoint(int(where["joint"]), more, parameters.get(WIDTH, 0.0)),)
+        return (InJoint(int(where["joint"]), more, parameters.get(WIDTH, 0.0), parameters.get(SLIP, 0.0)),)
 
     def saved(self, place: Place, values: np.ndarray) -> dict[str, float]:
         """Linear parameters (d,) and fixed values -> what is saved and reported."""
@@ -197,6 +201,10 @@ class Law(Effect[State, State, np.ndarray]):
     def held(self, hypothesis: Hypothesis, place: Place) -> np.ndarray:
         """(d,) values [SI] by which its columns stand for what a reading holds of it already (`undone` only)."""
         return np.zeros(len(self.linear))
+
+    def least(self, state: State, place: Place, name: str) -> float:
+        """Below which a shape value is never bent."""
+        return 0.0
 
     def lawful(self, parameters: Values) -> bool:
         """False where the values are none a real arm can have."""
@@ -246,8 +254,16 @@ class JointLaw(Law):
 
 
 def direction(state: State, joint: int, fixed: Values) -> np.ndarray:
-    """(M,) direction of dry friction between -1 and 1, of joint (from 0): sharp at rest, or over the saved speed."""
-    return state.direction(joint, fixed.get(WIDTH))
+    """(M,) direction of dry friction between -1 and 1, of joint (from 0): as it was saved, or as the log tells."""
+    slip = fixed.get(SLIP, 0.0) if WIDTH in fixed else None  # a law saved with its turn has all of it
+    return state.direction(joint, fixed.get(WIDTH), slip)
+
+
+def turn(state: State, *joints: int) -> dict[str, float]:
+    """How dry friction of a joint (from 0), or of the sum of two speeds, turns on a log: what a saved law holds."""
+    width = float(np.mean(state.width[list(joints)]))
+    slip = float(np.mean(state.slip[list(joints)])) if np.all(state.slip[list(joints)] > 0) else 0.0
+    return {WIDTH: width, **({SLIP: slip} if slip else {})}
 
 
 def everywhere(values: np.ndarray) -> Torques:

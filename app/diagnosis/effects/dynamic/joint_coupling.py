@@ -8,9 +8,9 @@ from typing import ClassVar
 
 import numpy as np
 
-from app.diagnosis.effects.dynamic._law import SHARE, WIDTH, Law, Torques, Values, Where, choice
+from app.diagnosis.effects.dynamic._law import SHARE, SLIP, WIDTH, Law, Torques, Values, Where, choice, turn
 from app.diagnosis.effects.effect import Place, Quantity
-from app.diagnosis.models.dynamic.state import State
+from app.diagnosis.models.dynamic.state import State, turned
 from app.diagnosis.result import Parameter
 
 DRIVERS = ("speed", "acceleration", "own_angle")
@@ -63,8 +63,9 @@ class JointCoupling(Law):
                   "gravity_torque": columns.torque}[place.where["driver"]]  # fmt: skip
             return {joint: of[:, source, None]}
         sense = place.fixed[SENSE]
-        width = float(place.fixed.get(WIDTH, columns.width[[joint, source]].mean()))
-        dry = np.tanh((columns.fine[:, :, joint] + sense * columns.fine[:, :, source]) / width).mean(axis=1)
+        shape = place.fixed if WIDTH in place.fixed else turn(columns, joint, source)
+        speed, way = (x[..., joint] + sense * x[..., source] for x in (columns.fine, columns.q))
+        dry = turned(speed, way, shape[WIDTH], shape.get(SLIP, 0.0))
         # The sum's own viscous friction and inertia, each joint's share of it beside what its own laws hold.
         qd, qdd = columns.qd, columns.qdd
         return {

@@ -1,4 +1,4 @@
-"""A load that is taken up (or put down) at some moment of the log."""
+"""A load that is taken up (or put down) at some moment of the log, for good or until another one."""
 
 from __future__ import annotations
 
@@ -18,8 +18,9 @@ class PayloadChange(Load):
     title = "the load on the flange changes"
     family = "events"
     driver = "time"
-    equation = "tau = (t > from_s) * tau of a mass at its centre in the flange frame"
+    equation = "tau = (from_s < t < to_s) * tau of a mass at its centre in the flange frame"
     ends = ("from_s",)
+    until = "to_s"
     lasting = False
 
     def places(self, situation: State) -> Iterable[Place]:
@@ -31,9 +32,10 @@ class PayloadChange(Load):
 
     def sentence(self, place: Place, parameters: tuple[Parameter, ...]) -> str:
         values = {p.name: p.value for p in parameters}
-        what = "taken up" if values["mass"] > 0 else "put down"
+        what, back = ("taken up", "put down") if values["mass"] > 0 else ("put down", "taken up")
+        until = f" and {back} at {place.where['to_s']:.2f} s" if "to_s" in place.where else ""
         return (
-            f"A load of {abs(values['mass']):.3f} kg is {what} at {place.where['from_s']:.2f} s, its centre at "
+            f"A load of {abs(values['mass']):.3f} kg is {what} at {place.where['from_s']:.2f} s{until}, its centre at "
             f"({values['com_x']:.3f}, {values['com_y']:.3f}, {values['com_z']:.3f}) m."
         )
 

@@ -1,4 +1,7 @@
-"""Friction of a joint that stands still: anything up to its breakaway level, whatever the motion before it left."""
+"""Friction of a joint that stands still: anything up to its breakaway level, whatever the motion before it left.
+
+So it is when a log begins: where friction turns over a way, what it began with fades on that way.
+"""
 
 from __future__ import annotations
 
@@ -7,13 +10,14 @@ from typing import ClassVar
 
 import numpy as np
 
-from app.diagnosis.effects.dynamic._law import Law, Torques
+from app.diagnosis.effects.dynamic._law import SLIP, Law, Torques
 from app.diagnosis.effects.effect import Place
 from app.diagnosis.models.dynamic.state import State
 from app.diagnosis.result import Parameter
 
 SHORTEST = 0.5  # s: shorter ones are turning points, where friction as such still moves
 MOST = 24  # rests of all joints that are looked at, the longest
+GONE = 5.0  # ways on which friction turns, after which nothing is left of what it began with
 
 
 class RestFriction(Law):
@@ -44,15 +48,27 @@ class RestFriction(Law):
                 begin, end = float(situation.t[first]), float(situation.t[last])
                 if situation.moves(j) and SHORTEST <= end - begin < situation.seconds:
                     found.append((begin - end, j, begin, end))
-        return [
+        rests = [
             Place({"joint": j + 1, "driver": self.driver, "from_s": begin, "to_s": end})
             for _, j, begin, end in sorted(found)[:MOST]
         ]
+        starts = [self._start(situation, j) for j in range(situation.joints) if situation.slip[j] > 0]
+        return [*rests, *starts]
+
+    def _start(self, state: State, joint: int) -> Place:
+        """What dry friction of joint (from 0) began with, as long as something is left of it."""
+        slip = float(state.slip[joint])
+        left = np.flatnonzero(_way(state, joint) < GONE * slip)
+        where = {"joint": joint + 1, "driver": self.driver, "from_s": 0.0, "to_s": float(state.t[left[-1]])}
+        return Place(where, {SLIP: slip})
 
     def columns(self, columns: State, place: Place) -> Torques:
         where = place.where
         inside = (columns.t >= where["from_s"] - 1e-9) & (columns.t <= where["to_s"] + 1e-9)
-        return {int(where["joint"]) - 1: inside.astype(float)[:, None]}
+        joint, level = int(where["joint"]) - 1, inside.astype(float)
+        if SLIP in place.fixed:
+            level = level * np.exp(-_way(columns, joint) / place.fixed[SLIP])
+        return {joint: level[:, None]}
 
     def sentence(self, place: Place, parameters: tuple[Parameter, ...]) -> str:
         where = place.where
@@ -60,6 +76,11 @@ class RestFriction(Law):
             f"Joint {where['joint']} stands still from {where['from_s']:.2f} to {where['to_s']:.2f} s and holds "
             f"{parameters[0].value:.3g} Nm by friction."
         )
+
+
+def _way(state: State, joint: int) -> np.ndarray:
+    """(M,) [rad or m] that joint (from 0) has gone since the start."""
+    return np.concatenate([[0.0], np.cumsum(np.abs(np.diff(state.q[:, joint])))])
 
 
 EFFECT = RestFriction()

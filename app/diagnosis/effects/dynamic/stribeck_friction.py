@@ -7,10 +7,11 @@ from typing import ClassVar
 import numpy as np
 
 from app.diagnosis.effects.dynamic._law import JointLaw, Values, choice, direction
+from app.diagnosis.effects.effect import Place
 from app.diagnosis.models.dynamic.state import State
+from app.diagnosis.thresholds.friction import BLUNT
 
 SHARES = (0.03, 0.06, 0.12, 0.25, 0.45)  # of the joint's usual speed: speeds at which it has faded, tried
-BLUNT = 2.0  # times the sharpness of the turn at rest: what fades sooner is that turn
 
 
 class StribeckFriction(JointLaw):
@@ -31,6 +32,9 @@ class StribeckFriction(JointLaw):
         speeds = [share * float(state.speed[joint]) for share in SHARES]
         speeds = [speed for speed in speeds if speed > BLUNT * state.width[joint]]
         return [({"stribeck_speed": speed}, choice(len(SHARES)) / 2) for speed in speeds]
+
+    def least(self, state: State, place: Place, name: str) -> float:
+        return BLUNT * float(state.width[int(place.where["joint"]) - 1])
 
     def column(self, state: State, joint: int, fixed: Values) -> np.ndarray:
         fade = np.exp(-((state.qd[:, joint] / fixed["stribeck_speed"]) ** 2))

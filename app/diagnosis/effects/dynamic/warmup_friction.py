@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import replace
 from typing import ClassVar
 
 import numpy as np
@@ -10,6 +11,7 @@ import numpy as np
 from app.diagnosis.effects.dynamic._law import JointLaw, Torques, Values, Where, choice, direction
 from app.diagnosis.effects.effect import Place
 from app.diagnosis.models.dynamic.state import State
+from app.diagnosis.result import Parameter
 
 SHARES = (0.08, 0.15, 0.25, 0.4, 0.6, 1.0)  # of the log's length: time constants tried
 WARMS = 1.0  # degC a joint must warm up by before its friction can be seen to follow
@@ -53,6 +55,11 @@ class WarmupFriction(JointLaw):
 
     def saved(self, place: Place, values: np.ndarray) -> dict[str, float]:
         return {"per_degree" if "warm" in place.fixed else "cold": float(values[0]), **place.fixed}
+
+    def reported(self, place: Place, values: np.ndarray, covariance: np.ndarray) -> tuple[Parameter, ...]:
+        found = super().reported(place, values, covariance)
+        std = float(np.sqrt(max(covariance[0, 0], 0.0)))
+        return tuple(replace(p, std=std) if p.name == "per_degree" else p for p in found)
 
     def torque(self, state: State, where: Where, parameters: Values) -> Torques:
         size = parameters.get("per_degree", parameters.get("cold", 0.0))

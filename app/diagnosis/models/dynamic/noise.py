@@ -16,9 +16,11 @@ import numpy as np
 from scipy.linalg import get_lapack_funcs
 from scipy.special import gammaincc
 
-from app.diagnosis.thresholds.noise import BAND, BAND_ABOVE, BAND_ENERGY, HIGHEST, LEAST_SHARE
+from app.diagnosis.thresholds.events import LONGEST
+from app.diagnosis.thresholds.noise import BAND, BAND_ABOVE, BAND_ENERGY, BURST, HIGHEST, LEAST_SHARE
 
 (_TBTRS,) = get_lapack_funcs(("tbtrs",), dtype=np.float64)  # scipy.signal would take half a second to load
+PIECES = 60  # of a log, in which bursts are looked for
 SKIPPED = 8  # rows after which a filter has forgotten where it began
 _RHO = np.array([0.0, 0.1, 0.2, 0.35, 0.5, 0.6, 0.68, 0.74, 0.79, 0.83, 0.86, 0.89, 0.92, 0.95])
 _THETA = np.array([0.0, 0.1, 0.2, 0.3, 0.4, 0.55, 0.7, 0.8, 0.88, 0.94])
@@ -158,6 +160,24 @@ def band_of(signals: np.ndarray, step: float) -> float:
     frequency = np.fft.rfftfreq(len(signals), step)
     top = float(frequency[(share > BAND_ENERGY).argmax(axis=0)].max())
     return float(np.clip(BAND_ABOVE * top, BAND[0], max(BAND[1] / step, BAND[0])))
+
+
+def without_bursts(residual: np.ndarray) -> np.ndarray:
+    """(M,) residual in which short stretches far louder than the others are as loud as those in the middle.
+
+    What happens once, a push or a load that is put down, is no noise of the whole log, however much it is; a residual
+    that is loud for long is left as it is.
+    """
+    edges = np.linspace(0, len(residual), PIECES + 1).astype(int)
+    length = np.maximum(np.diff(edges), 1)
+    if len(residual) < 2 * PIECES:
+        return residual
+    loud = np.sqrt(np.add.reduceat(residual**2, edges[:-1]) / length)
+    middle = float(np.median(loud))
+    burst = loud > BURST * middle
+    if burst.mean() > LONGEST:
+        return residual
+    return residual * np.repeat(np.where(burst, middle / np.maximum(loud, 1e-300), 1.0), length)
 
 
 def without_spikes(residual: np.ndarray) -> np.ndarray:

@@ -10,6 +10,8 @@ import numpy as np
 from app.diagnosis.models.dynamic.samples import Samples
 from app.diagnosis.thresholds.repeats import CHANGED, LEAST, SAME, SHORTEST
 
+STRETCHES = 20  # of the rows that have a partner
+
 
 def repeat_of(q: np.ndarray, runs: list[slice]) -> int:
     """Windows from one run of a trajectory to the next of the same; 0 where there is none.
@@ -40,8 +42,8 @@ def repeat_of(q: np.ndarray, runs: list[slice]) -> int:
 def noise_of_repeats(samples: Samples, left: np.ndarray) -> np.ndarray | None:
     """(n,) noise of each joint's torque [Nm] from what differs between two runs of one trajectory; None without such.
 
-    Where the second run is not as the first by what the model does not know either, half the rows that differ least
-    tell it.
+    Where the second run is not as the first by what the model does not know either, the half of its stretches that
+    differ least tells it.
 
     Args:
         left: (M, n) [Nm] what the model leaves: a load that it knows to have been taken up in between is no noise.
@@ -51,5 +53,12 @@ def noise_of_repeats(samples: Samples, left: np.ndarray) -> np.ndarray | None:
         return None
     differs = (left[lag:] - left[:-lag]) / np.sqrt(2.0)
     plain = np.std(differs, axis=0)
-    robust = 1.4826 * np.median(np.abs(differs - np.median(differs, axis=0)), axis=0)
+    edges = np.linspace(0, len(differs), STRETCHES + 1).astype(int)[:-1]
+    each = (
+        np.add.reduceat((differs - differs.mean(axis=0)) ** 2, edges)
+        / np.diff([*edges, len(differs)])[:, None]
+    )
+    robust = np.sqrt(
+        np.median(each, axis=0)
+    )  # by stretches: a torque in coarse digits hardly ever differs row by row
     return np.where(plain > CHANGED * robust, robust, plain)

@@ -34,6 +34,7 @@ class State:
         window: seconds that one window lasts.
         sliding: (n,) True for prismatic joints.
         width: (n,) [rad/s or m/s] speed at which dry friction has reached 76% of its level.
+        slip: (n,) [rad or m] way after a turn on which it has come to 63% of the other level; 0 where it turns at once.
         still: (n,) [rad/s or m/s] speed that cannot be told from standstill.
         size: (n,) root mean square of the torque, what is small or large on this joint [Nm or N].
         link_mass: (n,) [kg] and link_size: (n,) [m] of the description: what is small or large for a link.
@@ -58,6 +59,7 @@ class State:
     window: float
     sliding: np.ndarray
     width: np.ndarray
+    slip: np.ndarray
     still: np.ndarray
     size: np.ndarray
     link_mass: np.ndarray
@@ -97,12 +99,17 @@ class State:
         """(M,) True where joint (from 0) cannot be told from standing still."""
         return np.abs(self.qd[:, joint]) < self.still[joint]
 
-    def direction(self, joint: int, width: float | None = None) -> np.ndarray:
-        """(M,) direction of motion of a joint (from 0), between -1 and 1: mean of tanh(speed / width)."""
+    def direction(self, joint: int, width: float | None = None, slip: float | None = None) -> np.ndarray:
+        """(M,) direction of dry friction of a joint (from 0), between -1 and 1, see `turned`.
+
+        Args:
+            width, slip: the joint's own unless given.
+        """
         width = float(self.width[joint]) if width is None else width
-        key = ("direction", joint, width)
+        slip = float(self.slip[joint]) if slip is None else slip
+        key = ("direction", joint, width, slip)
         if key not in self.memory:
-            self.memory[key] = np.tanh(self.fine[:, :, joint] / width).mean(axis=1)
+            self.memory[key] = turned(self.fine[:, :, joint], self.q[:, joint], width, slip)
         return self.memory[key]
 
     def wave(self, joint: int, order: float) -> np.ndarray:
@@ -115,6 +122,32 @@ class State:
         """The same, the gears carrying `torque` (M, n), the drives giving `drive` (M, n)."""
         return replace(self, torque=torque, drive=drive)
 
-    def with_width(self, width: np.ndarray) -> State:
-        """The same, dry friction with sharpness `width` (n,)."""
-        return replace(self, width=width)
+    def with_turn(self, width: np.ndarray, slip: np.ndarray) -> State:
+        """The same, dry friction turning over speeds `width` (n,) or ways `slip` (n,)."""
+        return replace(self, width=width, slip=slip)
+
+
+def turned(fine: np.ndarray, q: np.ndarray, width: float, slip: float) -> np.ndarray:
+    """(M,) direction of dry friction: mean of tanh(speed / width), or, where `slip` is above 0, what follows the way.
+
+    After a turn the teeth and bearings of a gear give way elastically before they slide: dz/dq = (sign(qd) - z) / slip.
+    At rest z stays what the motion before has left.
+
+    Args:
+        fine: (M, w) speed of every sample of a window; q: (M,) position.
+        width, slip: see State.
+
+    Source: Dahl (1968), A solid friction model, with exponent 1; Canudas de Wit et al. (1995), A new model for control
+    of systems with friction, IEEE Transactions on Automatic Control 40(3), at low speed.
+    """
+    sharp = np.tanh(fine / width).mean(axis=1)
+    if slip <= 0.0:
+        return sharp
+    way = np.diff(q)
+    towards = np.sign(way).tolist()
+    stays = np.exp(-np.abs(way) / slip).tolist()
+    out, z = [float(sharp[0])], float(sharp[0])
+    for s, a in zip(towards, stays, strict=True):
+        z = s + a * (z - s)
+        out.append(z)
+    return np.array(out)
