@@ -7,13 +7,16 @@ two waves that stand for the same curve take each other's evidence, and none of 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from app.diagnosis.dynamic.names import Member
-from app.diagnosis.dynamic.solution import Solution
-from app.diagnosis.dynamic.study import Study
 from app.diagnosis.thresholds.naming_logs import NAME, SHARE
+
+if TYPE_CHECKING:
+    from app.diagnosis.dynamic.names import Member
+    from app.diagnosis.dynamic.solution import Solution
+    from app.diagnosis.dynamic.study import Study
 
 
 def withheld(study: Study, solution: Solution, found: Sequence[Member], mismatch: float) -> list[Member]:

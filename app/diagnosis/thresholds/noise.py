@@ -32,6 +32,9 @@ LEAST_SHARE = 0.4
 #: comes and goes with the motion by a factor of two or three.
 BURST = 5.0
 
+#: Share of a log's stretches that may be louder so: more is how the log is.
+MOST_BURST = 0.25
+
 #: p below which, and ratio to the noise beyond which, a joint has structure left in the band of its motion.
 LEFT_P, LEFT_RATIO = 2e-4, 1.7
 

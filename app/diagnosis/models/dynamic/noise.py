@@ -16,8 +16,15 @@ import numpy as np
 from scipy.linalg import get_lapack_funcs
 from scipy.special import gammaincc
 
-from app.diagnosis.thresholds.events import LONGEST
-from app.diagnosis.thresholds.noise import BAND, BAND_ABOVE, BAND_ENERGY, BURST, HIGHEST, LEAST_SHARE
+from app.diagnosis.thresholds.noise import (
+    BAND,
+    BAND_ABOVE,
+    BAND_ENERGY,
+    BURST,
+    HIGHEST,
+    LEAST_SHARE,
+    MOST_BURST,
+)
 
 (_TBTRS,) = get_lapack_funcs(("tbtrs",), dtype=np.float64)  # scipy.signal would take half a second to load
 PIECES = 60  # of a log, in which bursts are looked for
@@ -175,7 +182,7 @@ def without_bursts(residual: np.ndarray) -> np.ndarray:
     loud = np.sqrt(np.add.reduceat(residual**2, edges[:-1]) / length)
     middle = float(np.median(loud))
     burst = loud > BURST * middle
-    if burst.mean() > LONGEST:
+    if burst.mean() > MOST_BURST:
         return residual
     return residual * np.repeat(np.where(burst, middle / np.maximum(loud, 1e-300), 1.0), length)
 
