@@ -75,6 +75,7 @@ class Page:
     def __init__(self, words: ClientConnection, scene: ClientConnection, cookie: str):
         self._words, self._scene, self.cookie = words, scene, cookie
         self.read: dict[str, Any] = {}
+        self.way = 0.0  # degrees (mm) that axis 1 went, there and back
         self.moved = asyncio.Event()
         self.pongs: dict[float, float] = {}
         self.gone = asyncio.Event()
@@ -120,6 +121,7 @@ class Page:
     def _take(self, message: dict[str, Any]) -> None:
         if message["t"] == "read":
             if self.read and self.read["axes"] != message["axes"]:
+                self.way += abs(message["axes"][0]["number"] - self.read["axes"][0]["number"])
                 self.moved.set()
             self.read = message
         elif message["t"] == "pong":

@@ -102,6 +102,7 @@ class Effect(ABC, Generic[Situation, Columns, Cell]):
         cap: largest learnt width, in multiples of the nominal one.
         whole: True where all its places together form part of a family that is tried as a whole.
         always: True where members stay in a fit of families even if their width shrinks to nothing.
+        built: True for what comes from how an arm was built and set up: arms are off in all of it.
         group: name of those that share one learnt width; empty for the effect's own.
         serving: True where it only allows for what another law cannot know; it is never named.
         undone: True where it is taken out of the recording before anything is fitted (a convention, a delay).
@@ -120,6 +121,7 @@ class Effect(ABC, Generic[Situation, Columns, Cell]):
     cap: float = 10.0
     whole: bool = False
     always: bool = False
+    built: bool = False
     group: str = ""
     serving: bool = False
     undone: bool = False

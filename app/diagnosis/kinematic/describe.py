@@ -23,8 +23,6 @@ from app.diagnosis.regression.evidence import Selection
 from app.diagnosis.thresholds.evidence import (
     BETTER,
     COMPONENTS_A_PARAMETER,
-    DENSE_MARGIN,
-    DENSE_ROWS,
     FAR_BEHIND,
     WIDTHS,
 )
@@ -77,7 +75,7 @@ class _Work:
         self.large = int(plain.recording.present.sum()) > COMPONENTS_A_PARAMETER * parameters
 
     def linearise(self, levels) -> None:
-        self.problem.linearise(self.state, levels, self.dense and self.large)
+        self.problem.linearise(self.state, levels, self.dense and self.large, self.dense)
 
     def begin(self) -> None:
         """Few laws or families, with every row counting alike or by robust weights: by evidence.
@@ -136,9 +134,7 @@ class _Work:
         problem.evidence.kept = set()
         if problem.evidence.score(few) > problem.evidence.score(many) - FAR_BEHIND:
             few = search.climb({}, most=5)
-        short = not self.large or self.state.recording.size <= DENSE_ROWS
-        margin = DENSE_MARGIN if short else 0.0
-        self.dense = problem.evidence.score(many) > problem.evidence.score(few) + margin
+        self.dense = problem.evidence.score(many) > problem.evidence.score(few)
         problem.take(many if self.dense else few)
 
     def round(self, number: int) -> None:
@@ -152,6 +148,10 @@ class _Work:
             # what has no name is asked at first and at last; between, only what is in is settled
             self.linearise(ALL if last or number == 0 else NAMED)
             self.problem.take(self.few(last))
+            if self.problem.calibrated():  # few laws beside a family: the arm is off everywhere after all
+                self.dense = True
+                self.linearise(ALL if last else NAMED)
+                self.problem.take(self.families_and_more(last))
         self.move()
         if not last:
             weights, self.rows = weighted_anew(self.state, self._used())
@@ -160,7 +160,7 @@ class _Work:
     def families_and_more(self, last: bool) -> Selection:
         """All families tuned anew, and at the end laws and unnamed parts beside them."""
         problem = self.problem
-        start = {**dict.fromkeys(problem.families(), 1.0), **problem.selection()}
+        start = {**problem.selection(), **dict.fromkeys(problem.families(), 1.0)}
         found = problem.search(problem.laws(False)).pruned(problem.evidence.tuned(start))
         if last:
             allowed = problem.laws(True) + problem.families()
@@ -232,7 +232,7 @@ class _Work:
                 break
         shared = None
         if self.dense and self.large:
-            problem.linearise(self.state, NAMED, False)
+            problem.linearise(self.state, NAMED, False, True)
             alike = problem.evidence.tuned(problem.selection(), 1)
             shared = problem.by_label(
                 as_errors_are(problem.evidence.posterior(alike), problem.linear, alike, self.rows)
@@ -259,14 +259,13 @@ class _Work:
         """All calibration beside the few laws, what has no name keeping only what calibration cannot take.
 
         A few laws are enough to name; but what has no name says nothing of other poses, where an ordinary
-        calibration does. Taken where something has no name, and where the evidence is for it: the margin that names
-        ask for on short files is none of its business.
+        calibration does. Taken where something has no name, and where the evidence is for it.
         """
         problem, laws = self.problem, dict(self.problem.labels)
         nameless = any(
             problem.library.fixed[n].effect.level == Level.UNKNOWN for n in laws if isinstance(n, int)
         )
-        problem.linearise(self.state, NAMED, True)
+        problem.linearise(self.state, NAMED, True, False)
         problem.evidence.kept = set(problem.selection())
         ordinary = [g for g in problem.families() if problem.calibrates(g) and g not in problem.selection()]
         start = {**dict.fromkeys(ordinary, 1.0), **problem.selection()}
@@ -277,7 +276,7 @@ class _Work:
         problem.take(selection)
         for _ in range(_REFITS):
             still = self.move() < _STILL
-            problem.linearise(self.state, NAMED, True)
+            problem.linearise(self.state, NAMED, True, False)
             problem.evidence.kept = set(problem.selection())
             problem.take(problem.evidence.tuned(problem.selection(), 1))
             if still:

@@ -46,11 +46,14 @@ class Problem:
         assert self._linear is not None, "nothing is linearised yet"
         return self._linear
 
-    def linearise(self, state: State, levels: tuple[Level, ...], marginal: bool) -> None:
+    def linearise(self, state: State, levels: tuple[Level, ...], marginal: bool, everywhere: bool) -> None:
         """At a state, with all candidates of these levels.
 
         Args:
             marginal: whether unnamed columns keep only what families leave.
+            everywhere: whether the arm is taken to be off everywhere: zeros, lengths and angles then stay in, by about
+                as many of their usual sizes. Each with a width of its own, a few rows in a part of the workspace would
+                put all of it down to one kind and say nothing of other poses.
         """
         needed = {k for k in self.labels if isinstance(k, int)}
         if self._linear is not None and likeness(self._linear, state) is None:
@@ -64,6 +67,10 @@ class Problem:
         self.linear.groups = self.evidence.groups  # changes found later join both
         if marginal:
             self.keep_families()
+        elif everywhere:
+            self.keep_families(Level.CALIBRATION)
+        if everywhere:
+            self.evidence.alike = {g for g in self.families() if self._built(g)}
 
     def searched(self, selection: Selection) -> None:
         """Remembers that a search of everything ended here."""
@@ -113,9 +120,16 @@ class Problem:
                 variance = max(float(np.mean(weights**2)) / posterior.variance, float(WIDTHS[0]))
                 self.labels[number] = float(WIDTHS[np.searchsorted(WIDTHS, min(variance, float(WIDTHS[-1])))])
 
+    def calibrated(self) -> bool:
+        """Whether a family is in that an ordinary calibration fits."""
+        return any(self.calibrates(g) for g in set(self.selection()) & set(self.families()))
+
     def calibrates(self, family: int) -> bool:
         """Whether a group is one of those that an ordinary calibration fits."""
         return self._always(family, Level.CALIBRATION)
+
+    def _built(self, family: int) -> bool:
+        return all(self.library.fixed[i].effect.built for i in self.linear.members[family])
 
     def _always(self, family: int, most: Level) -> bool:
         effects = [self.library.fixed[i].effect for i in self.linear.members[family]]

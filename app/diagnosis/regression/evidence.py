@@ -19,6 +19,7 @@ from app.diagnosis.regression.groups import Group, Layout, Selection
 from app.diagnosis.regression.inside import ROUNDING, Inside
 from app.diagnosis.regression.solved import Beside, Factor, Posterior, Statistics
 from app.diagnosis.regression.triangular import inverse_of, lower_solved
+from app.diagnosis.thresholds.evidence import LIKENESS
 
 __all__ = ["Beside", "Evidence", "Factor", "Group", "Posterior", "Selection", "Statistics"]
 
@@ -35,6 +36,7 @@ class Evidence:
         groups: all groups; more may be appended.
         unit_noise: True where the whitened noise has unit variance for sure.
         kept: groups that stay in at the smallest width instead of falling out when they are tuned.
+        alike: groups whose widths are much of a size with each other's, as far as rows do not say otherwise.
     """
 
     def __init__(self, statistics: Statistics, groups: Sequence[Group], *, unit_noise: bool = False):
@@ -42,6 +44,7 @@ class Evidence:
         self.groups = list(groups)
         self.unit_noise = unit_noise
         self.kept: set[int] = set()
+        self.alike: set[int] = set()
         self._laid: Layout | None = None
         self._factors: dict[tuple, Factor] = {}
         self._factors_of: tuple[object, object] = (None, None)
@@ -201,8 +204,9 @@ class Evidence:
             squares = (own[:, None, :] @ vectors)[:, 0] ** 2
         return self.best_width(np.maximum(values, 0.0), squares, beside.residual, cap, penalty, widths)
 
-    def best_width(self, values, squares, residual: float, cap, penalty, widths: np.ndarray):
-        """Gains and gammas of a batch in eigenbases: values, squares (b, d); cap, penalty (b,)."""
+    def best_width(self, values, squares, residual: float, cap, penalty, widths: np.ndarray, expected=None):
+        """Gains and gammas of a batch in eigenbases: values, squares (b, d); cap, penalty (b,); expected None or (w,),
+        the log density of each width."""
         gamma = widths[:, None, None]
         stretch = 1.0 + gamma * values
         taken = squares * gamma / stretch
@@ -215,6 +219,8 @@ class Evidence:
         # gamma counts in variances of the noise that is left once the group is in
         variance = 1.0 if self.unit_noise else left / self.statistics.dof
         gain = np.where(widths[:, None] * variance > np.asarray(cap) ** 2, -np.inf, gain)
+        if expected is not None:
+            gain = gain + expected[:, None]
         gain[0] = np.where(np.isneginf(gain).all(axis=0), -1e9, gain[0])
         best = gain.argmax(axis=0)
         return gain[best, np.arange(len(best))] - penalty, widths[best]
@@ -259,7 +265,7 @@ class Evidence:
                 break
             inside = Inside(self, now)
             for g in list(now):
-                gain, gamma = inside.best_width(g)
+                gain, gamma = inside.best_width(g, self._expected(g, now))
                 if gain > 0 or g in stays:
                     now[g] = gamma
                     inside.widen(g, gamma)
@@ -267,6 +273,14 @@ class Evidence:
                     del now[g]
                     inside.drop(g)
         return now
+
+    def _expected(self, g: int, now: Mapping[int, float]) -> np.ndarray | None:
+        """(w,) log density of each width of a group that is alike with others, from theirs; None for any other."""
+        others = [now[h] for h in self.alike if h in now and h != g] if g in self.alike else []
+        if not others:
+            return None
+        off = np.log(self.groups[g].widths) - np.log(others).mean()
+        return np.asarray(-0.5 * (off / LIKENESS) ** 2)
 
     def posterior(self, selection: Mapping[int, float]) -> Posterior:
         f = self.factor(selection)

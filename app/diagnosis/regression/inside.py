@@ -44,11 +44,15 @@ class Inside:
             out[g] = fit - 0.5 * logdet - 0.5 * len(w) * float(np.log(gamma)) - e.groups[g].penalty
         return out
 
-    def best_width(self, g: int) -> tuple[float, float]:
-        """Gain [nats], penalty not counted, and width of a group beside the others."""
+    def best_width(self, g: int, expected: np.ndarray | None = None) -> tuple[float, float]:
+        """Gain [nats], penalty not counted, and width of a group beside the others.
+
+        Args:
+            expected: (w,) log density of each of its widths; None where one is as likely as another.
+        """
         e, group = self.evidence, self.evidence.groups[g]
         block, w, without = self.block(g)
-        if len(w) == 1 and e.unit_noise and group.cap == np.inf:
+        if expected is None and len(w) == 1 and e.unit_noise and group.cap == np.inf:
             return self._single(g, float(block[0, 0]), float(w[0]))
         diagonal = e.statistics.matrix[group.columns, group.columns]
         gram = block - np.diag(1.0 / self.gamma[g] + ROUNDING * diagonal)
@@ -60,7 +64,9 @@ class Inside:
         else:
             values, vectors = np.linalg.eigh(gram)
             values, squares = values[None], (right @ vectors)[None] ** 2
-        gain, gamma = e.best_width(np.maximum(values, 0.0), squares, without, group.cap, 0.0, group.widths)
+        gain, gamma = e.best_width(
+            np.maximum(values, 0.0), squares, without, group.cap, 0.0, group.widths, expected
+        )
         return float(gain[0]), float(gamma[0])
 
     def _single(self, g: int, block: float, weight: float) -> tuple[float, float]:

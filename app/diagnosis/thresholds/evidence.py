@@ -22,9 +22,9 @@ BETTER = 0.5
 EXCHANGES = 4
 #: Cosine between two columns beyond which one can hide the other: their sum leaves half of either or less.
 PAIR_COSINE = 0.7
-#: nats by which a description of families must beat one of few laws on a short file; on short files it is flexible
-#: enough to imitate a law. Rows from which on no margin is asked.
-DENSE_MARGIN, DENSE_ROWS = 20.0, 150
+#: Natural logarithm of variances: zeros, lengths and angles of one arm are off by about as many of their usual sizes,
+#: to a factor of two at one sigma, because they come from the same shop and the same care.
+LIKENESS = 2.0 * float(np.log(2.0))
 #: nats by which a description of few laws may be behind one of families before exchanges of its laws are tried: five
 #: laws that were taken one by one change places for tens of nats, an arm that is off everywhere is ahead by hundreds.
 FAR_BEHIND = 100.0

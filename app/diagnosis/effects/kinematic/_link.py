@@ -22,6 +22,7 @@ class LinkEffect(KinematicEffect):
     cap = 20.0
     whole = True
     always = True
+    built = True
     turns: bool
 
     def apply(self, cell, situation, place, values):

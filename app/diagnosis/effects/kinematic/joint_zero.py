@@ -33,6 +33,7 @@ class JointZero(KinematicEffect):
     cap = 30.0
     whole = True
     always = True
+    built = True
 
     def places(self, situation):
         return [Place({"joint": j}) for j in moving(situation)]
