@@ -38,8 +38,9 @@ class Sources:
         upload = ui.add_upload(t("compare.upload"), hint=t("compare.upload_hint"), several=True)
         context.uploaded(upload, self._dropped)
         self.reading = Reading(context, self._came)
-        self.path = ui.add_text(t("compare.path"), "", hint=t("compare.path_hint"))
-        context.clicked(ui.add_button(t("compare.load"), rank="plain"), self._from_path)
+        if context.shelf.person is None:  # where people log in, what lies on the server is not theirs to read
+            self.path = ui.add_text(t("compare.path"), "", hint=t("compare.path_hint"))
+            context.clicked(ui.add_button(t("compare.load"), rank="plain"), self._from_path)
         self._kinds = {t(f"compare.kind_{kind}"): kind for kind in KINDS}
         self.kind = ui.add_choice(t("compare.kind"), tuple(self._kinds))
         make = ui.add_button(t("compare.make"), hint=t("compare.make_hint"), rank="plain")
