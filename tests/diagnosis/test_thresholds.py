@@ -35,7 +35,8 @@ STAY = {
         "regression/inside.py": {"ROUNDING"},
     },
     "how much is looked at: more of it takes longer and says the same": {
-        "dynamic/events.py": {"PIECES", "SWELLS", "TRIALS"},
+        "dynamic/events.py": {"SWELLS", "TRIALS"},
+        "dynamic/pieces.py": {"PIECES"},
         "dynamic/gains.py": {"ENOUGH"},
         "dynamic/loads.py": {"SHOWN"},
         "models/dynamic/repeats.py": {"STRETCHES"},
@@ -65,7 +66,7 @@ STAY = {
             "DEGREE", "HALF_WIDTHS", "_ALONG", "_BEFORE", "_JITTER", "_PROBE", "_QUIET", "_QUIET_VARIANCE",
             "_SIXTH",
         },
-        "models/dynamic/noise.py": {"PIECES", "SKIPPED", "_RHO", "_THETA"},
+        "models/dynamic/noise.py": {"PIECES", "SKIPPED", "_FADED", "_RHO", "_THETA"},
         "models/dynamic/smoothing.py": {"BETTER", "LONGEST", "WORSE"},
         "models/kinematic/rows.py": {"_MEDIAN"},
         "observations/noise.py": {"_SQRT12"},

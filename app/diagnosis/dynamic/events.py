@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from app.diagnosis.dynamic.event_sums import between, block_gains, by_row, gains
-from app.diagnosis.dynamic.pieces import Pieces, beside, from_start
+from app.diagnosis.dynamic.pieces import PIECES, Pieces, beside, from_start, windows
 from app.diagnosis.effects.effect import Place
 from app.diagnosis.models.dynamic.design import TorqueDesign
 from app.diagnosis.models.dynamic.library import Candidate, group_of, laws
@@ -16,13 +16,12 @@ from app.diagnosis.models.dynamic.noise import SKIPPED
 from app.diagnosis.models.dynamic.state import State
 from app.diagnosis.regression.evidence import Evidence, Posterior, Selection
 from app.diagnosis.selection.search import Offer
-from app.diagnosis.thresholds.events import EDGE, LONGEST, MARGIN, MOST, MOVING, SHORTEST
+from app.diagnosis.thresholds.events import EDGE, MARGIN, MOST, SHORTEST
 
 if TYPE_CHECKING:
     from app.diagnosis.effects.dynamic._law import Law
 
 
-PIECES = 60  # of the log: edges of events are looked for at their ends first, and moved continuously then
 SWELLS = (1.0, 1.3)  # lengths of a contact that swells and fades over that of the best even one
 TRIALS = 40  # edges of such a contact that are tried
 
@@ -81,12 +80,17 @@ class Events:
         d, a = len(widths), len(inverse)
         gram, cross, right = np.zeros((d, d)), np.zeros((d, a)), np.zeros(d)
         for j, values in columns.items():
-            if not self.design.alive[j]:
+            rows = np.flatnonzero(values.any(axis=1))
+            if not self.design.alive[j] or not len(rows):
                 continue
-            white = self.design.whiteners[j](values * widths)
+            # An event is nothing outside its window and what the filter remembers of it.
+            begin, whitener = max(int(rows[0]), SKIPPED) - SKIPPED, self.design.whiteners[j]
+            end = int(rows[-1]) + 1 + whitener.memory
+            white = whitener(values[begin:end] * widths)
+            part = slice(begin, begin + len(white))
             gram += white.T @ white
-            cross[:, parts[j][1]] += white.T @ parts[j][0]
-            right += white.T @ residual[j]
+            cross[:, parts[j][1]] += white.T @ parts[j][0][part]
+            right += white.T @ residual[j][part]
         block = gram - cross @ inverse @ cross.T + np.eye(d)
         fit = 0.5 * right @ np.linalg.solve(block, right) - 0.5 * float(np.linalg.slogdet(block)[1])
         return float(fit) - law.penalty - place.cost
@@ -136,7 +140,7 @@ class Events:
                 begin, last = self._spells(first, share[edges], law)
                 choices = np.where(last < PIECES, 2.0, 1.0) * float(np.log(max(len(first), 1)))
             else:
-                begin, last = self._windows(share[edges] * PIECES)
+                begin, last = windows(share[edges] * PIECES)
                 apart = [self._apart(selection, law, at(x), at(y)) for x, y in zip(begin, last, strict=True)]
                 begin, last = begin[apart], last[apart]
                 choices = np.full(len(begin), 2.0 * float(np.log(PIECES)))
@@ -167,23 +171,6 @@ class Events:
         labels = [self.evidence.groups[g].label for g in selection]
         there = [c.place.where for c in labels if isinstance(c, Candidate) and c.law is law]
         return all(until + near <= where["from_s"] or since - near >= where["to_s"] for where in there)
-
-    @staticmethod
-    def _windows(at_edges: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """First and last piece of every window that is tried: friction at rest hides what pushes then.
-
-        Args:
-            at_edges: (pieces + 1,) motion before each piece, in pieces of even motion.
-        """
-        longest = int(LONGEST * PIECES)
-        pairs = [
-            (x, y)
-            for x in range(PIECES)
-            for y in range(x + 2, min(PIECES, x + longest) + 1)
-            if at_edges[y] - at_edges[x] > MOVING * (y - x)
-        ]
-        first, last = np.array(pairs).T
-        return first, last
 
     def _moved(self) -> np.ndarray:
         """(rows + 1,) share of the log's motion before each row: a load at rest is one with what friction holds."""

@@ -12,6 +12,9 @@ import numpy as np
 
 from app.diagnosis.models.dynamic.design import TorqueDesign
 from app.diagnosis.regression.evidence import Posterior
+from app.diagnosis.thresholds.events import LONGEST, MOVING
+
+PIECES = 60  # of the log: edges of events are looked for at their ends first, and moved continuously then
 
 
 class Pieces:
@@ -69,3 +72,20 @@ def beside(
 def from_start(values: np.ndarray) -> np.ndarray:
     """(p + 1, ...) sums over the pieces before each edge."""
     return np.concatenate([np.zeros_like(values[:1]), np.cumsum(values, axis=0)])
+
+
+def windows(at_edges: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """First and last piece of every window that is tried: friction at rest hides what pushes then.
+
+    Args:
+        at_edges: (pieces + 1,) motion before each piece, in pieces of even motion.
+    """
+    longest = int(LONGEST * PIECES)
+    pairs = [
+        (x, y)
+        for x in range(PIECES)
+        for y in range(x + 2, min(PIECES, x + longest) + 1)
+        if at_edges[y] - at_edges[x] > MOVING * (y - x)
+    ]
+    first, last = np.array(pairs).T
+    return first, last

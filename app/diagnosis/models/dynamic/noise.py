@@ -28,6 +28,7 @@ from app.diagnosis.thresholds.noise import (
 
 (_TBTRS,) = get_lapack_funcs(("tbtrs",), dtype=np.float64)  # scipy.signal would take half a second to load
 PIECES = 60  # of a log, in which bursts are looked for
+_FADED = 1e-12  # of what came in
 SKIPPED = 8  # rows after which a filter has forgotten where it began
 _RHO = np.array([0.0, 0.1, 0.2, 0.35, 0.5, 0.6, 0.68, 0.74, 0.79, 0.83, 0.86, 0.89, 0.92, 0.95])
 _THETA = np.array([0.0, 0.1, 0.2, 0.3, 0.4, 0.55, 0.7, 0.8, 0.88, 0.94])
@@ -58,6 +59,13 @@ class Whitener:
         band = np.ones((2, len(steps)))
         band[1] = -self.theta
         return _TBTRS(band, steps, uplo="L", overwrite_b=1)[0][SKIPPED:]
+
+    @property
+    def memory(self) -> int:
+        """Rows after which what came in has faded to a rounding error."""
+        if self.theta == 0.0 or self.rho == self.theta:
+            return 1
+        return 1 + int(np.ceil(np.log(_FADED) / np.log(self.theta)))
 
     @property
     def spread(self) -> float:
