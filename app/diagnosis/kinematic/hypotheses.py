@@ -17,6 +17,7 @@ from app.diagnosis.observations.pose_reading import renumbered
 from app.diagnosis.regression.evidence import Evidence
 from app.diagnosis.thresholds.conventions import (
     ALIKE,
+    BESIDE,
     CONVENTION,
     CONVENTION_MISFIT,
     CONVENTION_ROWS,
@@ -75,10 +76,11 @@ def _best(
     for convention in conventions(sample):
         apart = convention.needs_neighbours
         state = _fitted(_some(convention.placed(recording), keep) if apart else convention.placed(sample))
-        if state is not None:
-            gain = _likelihood(state, sample) - as_written
-            if gain > CONVENTION:
-                tried.append((gain, convention))
+        if state is None or (apart and state.misfit > BESIDE * plain.misfit):
+            continue
+        gain = _likelihood(state, sample) - as_written
+        if gain > CONVENTION:
+            tried.append((gain, convention))
     tried.sort(key=lambda entry: -entry[0])
     if not tried:
         return None

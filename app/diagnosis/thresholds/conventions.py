@@ -13,6 +13,9 @@ CONVENTION_MISFIT = 2e-3
 CONVENTION = 20.0
 #: Rows that are enough to tell one convention from another.
 CONVENTION_ROWS = 120
+#: Share of the misfit that is left at most where measurements stand in other rows than their joints: then the right
+#: rows explain nearly all. In a recording made in motion any delay makes the row beside fit a little better.
+BESIDE = 1.0 / 3.0
 #: Conventions undone at most in one recording.
 CONVENTIONS = 4
 
