@@ -18,7 +18,7 @@ import numpy as np
 from app.diagnosis.dynamic.families import families
 from app.diagnosis.dynamic.solution import solve
 from app.diagnosis.dynamic.study import Study
-from app.diagnosis.effects.dynamic._law import Law, Torques, turn
+from app.diagnosis.effects.dynamic._law import SLIP, WIDTH, Law, Torques, turn
 from app.diagnosis.effects.effect import Place, Quantity
 from app.diagnosis.model import ModelEffect
 from app.diagnosis.models.dynamic.library import Candidate, label, nominal
@@ -73,6 +73,14 @@ class KnownBefore(Law):
             for joint, values in term.law.columns(columns, term.place).items():
                 added = values @ self.half[term.part]
                 out[joint] = out[joint] + added if joint in out else added
+        return out
+
+    def turns(self) -> dict[int, tuple[float, float]]:
+        """How dry friction of each joint turned on that log."""
+        out = {}
+        for place in (term.place for term in self.terms if term.law.blunt):
+            if WIDTH in place.fixed and "source_joint" not in place.where:
+                out[int(place.where["joint"]) - 1] = (place.fixed[WIDTH], place.fixed.get(SLIP, 0.0))
         return out
 
     def effects(self, weights: np.ndarray | None = None) -> tuple[ModelEffect, ...]:

@@ -6,6 +6,7 @@ that leaves least is taken, if it leaves plainly less than the usual one.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -20,15 +21,20 @@ if TYPE_CHECKING:
 Turn = tuple[float, float]  # width [rad/s or m/s], slip [rad or m]
 
 
-def learnt_turns(samples: Samples) -> tuple[np.ndarray, np.ndarray]:
+def learnt_turns(samples: Samples, before: Mapping[int, Turn]) -> tuple[np.ndarray, np.ndarray]:
     """(n,) speed [rad/s] at which dry friction has reached 76% of its level, and (n,) way [rad] over which it turns.
 
     The way is 0 where friction follows the speed alone.
+
+    Args:
+        before: joint (from 0) -> what another log of the arm told; friction turns as it did then.
     """
     state = samples.state
     width, slip = state.width.copy(), state.slip.copy()
     for j in range(state.joints):
-        if state.moves(j):
+        if j in before:
+            width[j], slip[j] = before[j]
+        elif state.moves(j):
             width[j], slip[j] = _learnt(samples, j)
     return width, slip
 

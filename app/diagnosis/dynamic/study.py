@@ -74,7 +74,10 @@ class Study:
 
     def __post_init__(self) -> None:
         samples = self.samples
-        turn = learnt_turns(samples) if self.like is None else (self.like.state.width, self.like.state.slip)
+        if self.like is None:
+            turn = learnt_turns(samples, {} if self.prior is None else self.prior.turns())
+        else:
+            turn = self.like.state.width, self.like.state.slip
         self.rigid = (
             samples.state.torque
         )  # with the masses and loads of laws taken for part of the description

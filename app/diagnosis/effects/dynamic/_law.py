@@ -161,6 +161,10 @@ class Law(Effect[State, State, np.ndarray]):
         more = {word: parameters.get(name, 0.0) for name, word in self.in_joint.items()}
         return (InJoint(int(where["joint"]), more, parameters.get(WIDTH, 0.0), parameters.get(SLIP, 0.0)),)
 
+    def turns(self) -> Mapping[int, tuple[float, float]]:
+        """Joint (from 0) -> width [rad/s] and slip [rad] of the dry friction it is made of; none for most laws."""
+        return {}
+
     def saved(self, place: Place, values: np.ndarray) -> dict[str, float]:
         """Linear parameters (d,) and fixed values -> what is saved and reported."""
         return {**dict(zip(self.linear, map(float, values), strict=True)), **place.fixed}
