@@ -94,7 +94,9 @@ def test_a_class_deleted_under_a_running_lesson_loses_nothing(hub, at):
     hub.room.assignments.forget(at.id)
     assert not desk.context.aids.touch
     desk.does(lambda: desk.view("choose")._finish())
-    assert len(hub.records.history(ada.id)) == 1 and desk.said[0] == "warning"  # nothing was done yet: not passed
+    assert (
+        len(hub.records.history(ada.id)) == 1 and desk.said[0] == "warning"
+    )  # nothing was done yet: not passed
     assert desk.view("choose")._list.options  # the shipped ones are still there
 
 
