@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from app.diagnosis.dynamic.event_sums import between, block_gains, by_row, gains
-from app.diagnosis.dynamic.pieces import PIECES, Pieces, beside, from_start, windows
+from app.diagnosis.dynamic.pieces import PIECES, Pieces, beside, from_start, moving, windows
 from app.diagnosis.effects.effect import Place
 from app.diagnosis.models.dynamic.design import TorqueDesign
 from app.diagnosis.models.dynamic.library import Candidate, group_of, laws
@@ -227,6 +227,10 @@ class Events:
                 more = [v[-1] - v for v in more]
             gram, cross, right = (s + m for s, m in zip(sums, more, strict=True))
             gain = block_gains(gram, cross, right, inverse)
+            if not held:
+                here = np.arange(low, low + len(gain))
+                goes = moving(share, *((here, edges[1]) if k == 0 else (edges[0], here)))
+                gain = np.where(goes, gain, -np.inf) if goes.any() else gain
             if len(gain):  # none where the log ends before the shortest event does
                 edges[k] = low + int(gain.argmax())
         step = float(np.median(np.diff(t)))
@@ -234,7 +238,7 @@ class Events:
         place = Place({"body": "tool", "driver": "time", **dict(zip(where, times, strict=False))}, cost=cost)
         best = self._at_exact_rows(selection, law, place, step)
         if law.swells:
-            swelling = self._swelling(selection, law, place)
+            swelling = self._swelling(selection, law, place, share)
             best = max(best, swelling, key=lambda found: found[0])
         return best[1], best[0]
 
@@ -255,7 +259,9 @@ class Events:
                 best = max(best, (self.gain(selection, law, trial), trial), key=lambda found: found[0])
         return best
 
-    def _swelling(self, selection: Selection, law: Law, even: Place) -> tuple[float, Place]:
+    def _swelling(
+        self, selection: Selection, law: Law, even: Place, share: np.ndarray
+    ) -> tuple[float, Place]:
         """The best contact that rises and falls as half a sine, as a push by hand does, and its evidence."""
         from scipy.optimize import minimize
 
@@ -266,10 +272,15 @@ class Events:
             where = {"from_s": float(ends[0]), "to_s": float(max(ends[1], ends[0] + least))}
             return Place({**even.where, **where}, {"fixed_swell": 1.0}, cost=even.cost + 1.0)
 
+        def worse(ends: np.ndarray) -> float:
+            there = place(ends)
+            rows = np.searchsorted(self.state.t[SKIPPED:], [there.where["from_s"], there.where["to_s"]])
+            return -self.gain(selection, law, there) if moving(share, *rows) else np.inf
+
         starts = [np.array([middle - wider * half, middle + wider * half]) for wider in SWELLS]
-        start = max(starts, key=lambda ends: self.gain(selection, law, place(ends)))
+        start = min(starts, key=worse)
         found = minimize(
-            lambda ends: -self.gain(selection, law, place(ends)),
+            worse,
             start,
             method="Nelder-Mead",
             options={

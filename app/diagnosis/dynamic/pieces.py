@@ -89,3 +89,12 @@ def windows(at_edges: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     ]
     first, last = np.array(pairs).T
     return first, last
+
+
+def moving(share: np.ndarray, first: np.ndarray | int, last: np.ndarray | int) -> np.ndarray:
+    """Whether the arm moves in windows of rows first to last: friction at rest hides what pushes then.
+
+    Args:
+        share: (rows + 1,) of the log's motion before each row.
+    """
+    return np.asarray(share[last] - share[first] > MOVING * (last - first) / (len(share) - 1))

@@ -64,7 +64,7 @@ def test_the_speed_over_which_friction_turns_is_learnt_under_noise_that_remember
     run.torque += DRY * np.tanh(run.qd / width)
     measure(run, rng, 0.02, memory)
     log, motion, _ = ready(write(run, tmp_path / "log.csv", speed=True), arm)
-    widths, slips = learnt_turns(take(log, arm, motion, as_given(6)))
+    widths, slips = learnt_turns(take(log, arm, motion, as_given(6)), {})
     assert not slips[:3].any()
     assert np.all(np.abs(np.log(widths[:3] / width)) < 0.7)
 
