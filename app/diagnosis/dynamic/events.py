@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -133,14 +134,14 @@ class Events:
         out = []
         t = self.state.t[SKIPPED:]
         at = lambda k: float(t[min(edges[k], rows - 1)])  # noqa: E731
-        share = self._moved()
+        share = self._moved
         first = np.flatnonzero((share[edges] >= EDGE) & (share[edges] <= 1.0 - EDGE))
         for key, law in self.laws.items():
             if len(law.ends) == 1:
                 begin, last = self._spells(first, share[edges], law)
                 choices = np.where(last < PIECES, 2.0, 1.0) * float(np.log(max(len(first), 1)))
             else:
-                begin, last = windows(share[edges] * PIECES)
+                begin, last = windows(share[edges])
                 apart = [self._apart(selection, law, at(x), at(y)) for x, y in zip(begin, last, strict=True)]
                 begin, last = begin[apart], last[apart]
                 choices = np.full(len(begin), 2.0 * float(np.log(PIECES)))
@@ -172,12 +173,13 @@ class Events:
         there = [c.place.where for c in labels if isinstance(c, Candidate) and c.law is law]
         return all(until + near <= where["from_s"] or since - near >= where["to_s"] for where in there)
 
+    @cached_property
     def _moved(self) -> np.ndarray:
         """(rows + 1,) share of the log's motion before each row: a load at rest is one with what friction holds."""
-        moving = ~np.all([self.state.stands(j) for j in range(self.state.joints)], axis=0)[SKIPPED:]
-        if not moving.any():
-            moving[:] = True
-        return np.concatenate([[0.0], np.cumsum(moving) / moving.sum()])
+        goes = ~np.all([self.state.stands(j) for j in range(self.state.joints)], axis=0)[SKIPPED:]
+        if not goes.any():
+            goes[:] = True
+        return np.concatenate([[0.0], np.cumsum(goes) / goes.sum()])
 
     def _whitened(self) -> list[np.ndarray]:
         """Columns of a load and of a force, scaled to nominal widths, whitened, of the whole log."""
@@ -207,7 +209,7 @@ class Events:
         rows = len(residual[0])
         t = self.state.t[SKIPPED:]
         edges = [int(np.searchsorted(t, time)) for time in where.values()]
-        share = self._moved()
+        share = self._moved
         if once:
             edges.append(rows)
         reach, least = 2 * rows // PIECES, max(int(SHORTEST / max(float(np.median(np.diff(t))), 1e-9)), 2)
@@ -238,7 +240,7 @@ class Events:
         place = Place({"body": "tool", "driver": "time", **dict(zip(where, times, strict=False))}, cost=cost)
         best = self._at_exact_rows(selection, law, place, step)
         if law.swells:
-            swelling = self._swelling(selection, law, place, share)
+            swelling = self._swelling(selection, law, place)
             best = max(best, swelling, key=lambda found: found[0])
         return best[1], best[0]
 
@@ -259,9 +261,7 @@ class Events:
                 best = max(best, (self.gain(selection, law, trial), trial), key=lambda found: found[0])
         return best
 
-    def _swelling(
-        self, selection: Selection, law: Law, even: Place, share: np.ndarray
-    ) -> tuple[float, Place]:
+    def _swelling(self, selection: Selection, law: Law, even: Place) -> tuple[float, Place]:
         """The best contact that rises and falls as half a sine, as a push by hand does, and its evidence."""
         from scipy.optimize import minimize
 
@@ -275,7 +275,7 @@ class Events:
         def worse(ends: np.ndarray) -> float:
             there = place(ends)
             rows = np.searchsorted(self.state.t[SKIPPED:], [there.where["from_s"], there.where["to_s"]])
-            return -self.gain(selection, law, there) if moving(share, *rows) else np.inf
+            return -self.gain(selection, law, there) if moving(self._moved, *rows) else np.inf
 
         starts = [np.array([middle - wider * half, middle + wider * half]) for wider in SWELLS]
         start = min(starts, key=worse)

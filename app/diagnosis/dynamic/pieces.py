@@ -74,25 +74,21 @@ def from_start(values: np.ndarray) -> np.ndarray:
     return np.concatenate([np.zeros_like(values[:1]), np.cumsum(values, axis=0)])
 
 
-def windows(at_edges: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """First and last piece of every window that is tried: friction at rest hides what pushes then.
+def windows(share: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """First and last piece of every window that is tried.
 
     Args:
-        at_edges: (pieces + 1,) motion before each piece, in pieces of even motion.
+        share: (pieces + 1,) of the log's motion before each piece.
     """
     longest = int(LONGEST * PIECES)
-    pairs = [
-        (x, y)
-        for x in range(PIECES)
-        for y in range(x + 2, min(PIECES, x + longest) + 1)
-        if at_edges[y] - at_edges[x] > MOVING * (y - x)
-    ]
+    pairs = [(x, y) for x in range(PIECES) for y in range(x + 2, min(PIECES, x + longest) + 1)]
     first, last = np.array(pairs).T
-    return first, last
+    goes = moving(share, first, last)
+    return first[goes], last[goes]
 
 
 def moving(share: np.ndarray, first: np.ndarray | int, last: np.ndarray | int) -> np.ndarray:
-    """Whether the arm moves in windows of rows first to last: friction at rest hides what pushes then.
+    """Whether the arm moves in windows of rows (or pieces) first to last: friction at rest hides what pushes then.
 
     Args:
         share: (rows + 1,) of the log's motion before each row.
