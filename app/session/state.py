@@ -138,7 +138,7 @@ class SessionState:
     @property
     def steps(self) -> tuple[Step, ...]:
         """The wizard's rows."""
-        return mode_named(self.mode).steps(self.touches)
+        return _rows(self.mode, self.touches)
 
     @property
     def missing(self) -> tuple[Step, ...]:
@@ -209,6 +209,12 @@ def robot_named(name: str) -> RobotModel:
 def mode_named(key: str) -> Mode:
     """A wizard mode; raises UnknownNameError."""
     return catalog.member(MODES, "MODE", key, what="wizard mode")
+
+
+@lru_cache(maxsize=256)
+def _rows(mode: str, touches: int) -> tuple[Step, ...]:
+    """A mode's steps, made once: the read-out asks for them ten times a second."""
+    return mode_named(mode).steps(touches)
 
 
 def first_state(robot: str | None = None, mode: str = FIRST_MODE) -> SessionState:

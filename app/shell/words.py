@@ -74,7 +74,8 @@ class Words:
         loop = asyncio.get_running_loop()
 
         def wake() -> None:
-            if not loop.is_closed():
+            # What is already told of is read after it was told: a tick of a moving arm wakes nobody twice.
+            if not self._news.is_set() and not loop.is_closed():
                 loop.call_soon_threadsafe(self._news.set)
 
         unlisten = self._live.listen(wake)

@@ -73,6 +73,7 @@ class Guard:
         self.world, self._bodies = world, bodies
         self._feeling = Feeling(world, bodies.held, bodies.obstacles)
         self._levers = _levers(world.robot, float(np.linalg.norm(world.T_flange_tool_true.position)))
+        self._looked: tuple[np.ndarray, dict[tuple[str, str], float]] | None = None  # the pose looked at last
 
     def advance(
         self, start: np.ndarray, end: np.ndarray, *, feel: bool = True
@@ -86,7 +87,7 @@ class Guard:
         way = float(np.abs(end - start) @ self._levers)
         if way == 0.0:
             return end, None
-        allowed = self._bodies.touching(start)
+        allowed = self._touching(start)  # where the way before ended: looked at once
         pieces = max(1, int(np.ceil(way / _STEP)))
         at = start
         for k in range(1, pieces + 1):
@@ -118,8 +119,13 @@ class Guard:
         off = np.linalg.norm(rest - world.tip(end).position, axis=1).max()
         return None if off <= _AT_THE_END * world.contact_distance else stop
 
+    def _touching(self, q: np.ndarray) -> dict[tuple[str, str], float]:
+        if self._looked is None or not np.array_equal(self._looked[0], q):
+            self._looked = q.copy(), self._bodies.touching(q)
+        return self._looked[1]
+
     def _worse(self, q: np.ndarray, allowed: dict[tuple[str, str], float]) -> tuple[str, str] | None:
-        for pair, distance in self._bodies.touching(q).items():
+        for pair, distance in self._touching(q).items():
             before = allowed.get(pair, np.inf)
             if before > -MARGIN and distance < before - _WORSE:
                 return pair
