@@ -1,6 +1,6 @@
 """Joint logs of real arms: the diagnosis beside plain least squares, held out and carried to another log of the arm.
 
-    python -m benchmarks.ordinary_motion [FOLDER ...]      folders with run_a.csv, ...; all of TEACHFRAME_DATA
+    python -m benchmarks ordinary_motion [FOLDER ...] [--write]      folders with run_a.csv, ...; all of TEACHFRAME_DATA
 
 The peer is _ordinary.py on the very same windows, with the rotor's inertia and without it, whichever is better there.
 """
@@ -141,7 +141,7 @@ def section(lines: list[Line]) -> str:
     return head + markdown(heads, rows)
 
 
-def main(named: list[str]) -> None:
+def command(named: list[str]) -> int:
     """Prints the table; `--write` puts it into the document."""
     write = "--write" in named
     lines: list[Line] = []
@@ -158,7 +158,8 @@ def main(named: list[str]) -> None:
             )
     if write:
         replace_section(DOCS / "real_recordings.md", "motion", section(lines))
+    return 0
 
 
 if __name__ == "__main__":
-    main(sys.argv[1:])
+    sys.exit(command(sys.argv[1:]))

@@ -78,6 +78,7 @@ def _read(table: Table, robot: RobotModel) -> StaticRecording:
             time=time,
             temperature=_temperature(table),
             instrument=measured.mode,
+            reflectors=1 if measured.points is None else measured.points.shape[1],
         ),
         stated_noise=_stated_noise(table),
         angle_resolution=_angle_resolution(table, robot),

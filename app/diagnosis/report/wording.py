@@ -62,6 +62,8 @@ def place(where: Mapping[str, Any], language: str = FALLBACK) -> str:
     if where.get("body") is not None:
         body = f"body.{where['body']}"
         parts.append(WORDS.text(body, language) if WORDS.has(body) else str(where["body"]))
+    if where.get("reflector") is not None:
+        parts.append(said("reflector", n=where["reflector"]))
     if where.get("joint") is not None:
         parts.append(said("joint", n=where["joint"]))
     if where.get("link") is not None and where.get("axis") is not None:
@@ -81,7 +83,18 @@ def place(where: Mapping[str, Any], language: str = FALLBACK) -> str:
         parts.append(said("window", start=f"{where['from_s']:.2f}", end=f"{where['to_s']:.2f}"))
     elif where.get("from_s") is not None:
         parts.append(said("since", start=f"{where['from_s']:.2f}"))
-    known = {"body", "joint", "link", "axis", "source_joint", "driver", "from_row", "from_s", "to_s"}
+    known = {
+        "body",
+        "reflector",
+        "joint",
+        "link",
+        "axis",
+        "source_joint",
+        "driver",
+        "from_row",
+        "from_s",
+        "to_s",
+    }
     parts += [f"{key.replace('_', ' ')} {value}" for key, value in where.items() if key not in known]
     return WORDS.text("list.between", language).join(parts) or said("nowhere")
 

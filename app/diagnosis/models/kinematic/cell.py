@@ -28,6 +28,7 @@ class Cell:
         turns: (1 or m, n, 3) its turn, as a rotation vector [rad].
         base: (1 or m, 6) displacement [m] and turn [rad] of the arm's base, in base.
         tool: (1 or m, 6) displacement and turn of the tool, in the flange.
+        reflectors: (1 or m, r, 3) displacement of each reflector beside the others, in the flange [m].
         scale: (1 or m,) measured = scale * true.
         zero: (1 or m,) range or length that the instrument shows too much [m].
         press: (1 or m,) depth by which the tip stands beyond the target, along flange Z [m].
@@ -38,6 +39,7 @@ class Cell:
     turns: np.ndarray
     base: np.ndarray
     tool: np.ndarray
+    reflectors: np.ndarray
     scale: np.ndarray
     zero: np.ndarray
     press: np.ndarray
@@ -75,6 +77,7 @@ def nominal_cell(situation: Situation) -> Cell:
         turns=np.zeros((1, n, 3)),
         base=np.zeros((1, 6)),
         tool=np.zeros((1, 6)),
+        reflectors=np.zeros((1, situation.reflectors, 3)),
         scale=np.ones(1),
         zero=np.zeros(1),
         press=np.zeros(1),
@@ -109,6 +112,8 @@ def pose(situation: Situation, cell: Cell, tool: np.ndarray, frames: Frames | No
         chain, moved = situation.chain, bool(np.any(cell.shifts) or np.any(cell.turns))
         frames = chain.frames(cell.q, *_placements(cell)) if moved else chain.frames(cell.q)
     local, hand, base_rotation = tool if tool.ndim == 3 else tool[None], frames.flange_rotations, _STRAIGHT
+    if cell.reflectors.any():
+        local = local + cell.reflectors
     if cell.tool.any():
         tool_turn = exp_so3(cell.tool[:, 3:])
         local = local @ np.swapaxes(tool_turn, 1, 2) + cell.tool[:, None, :3]

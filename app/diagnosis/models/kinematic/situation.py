@@ -43,6 +43,7 @@ class Situation:
         order: (m,) 1-based number of the row among the data rows, before any was set aside.
         payload: (m,) known mass at the flange [kg], or None; payload_com (3,) its centre [m].
         instrument: what is measured: "points", "targets" (touches of unknown points) or "length" (a draw-wire).
+        reflectors: points that are measured in each pose.
     """
 
     chain: Chain
@@ -62,6 +63,7 @@ class Situation:
     payload: np.ndarray | None = None
     payload_com: np.ndarray | None = None
     instrument: str = "points"
+    reflectors: int = 1
 
     @cached_property
     def kept(self) -> dict[tuple, Any]:
@@ -111,6 +113,7 @@ def situation_for(
     temperature: np.ndarray | None = None,
     order: np.ndarray | None = None,
     instrument: str = "points",
+    reflectors: int = 1,
 ) -> Situation:
     """The drivers of rows `q`; measured torques win over computed ones.
 
@@ -156,4 +159,5 @@ def situation_for(
         payload=payload,
         payload_com=payload_com,
         instrument=instrument,
+        reflectors=reflectors,
     )
