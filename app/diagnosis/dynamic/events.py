@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from app.diagnosis.dynamic.event_sums import between, block_gains, by_row, gains
-from app.diagnosis.dynamic.pieces import PIECES, Pieces, beside, from_start, moving, windows
+from app.diagnosis.dynamic.pieces import PIECES, Pieces, beside, from_start, windows
 from app.diagnosis.effects.effect import Place
 from app.diagnosis.models.dynamic.design import TorqueDesign
 from app.diagnosis.models.dynamic.library import Candidate, group_of, laws
@@ -18,6 +18,7 @@ from app.diagnosis.models.dynamic.state import State
 from app.diagnosis.regression.evidence import Evidence, Posterior, Selection
 from app.diagnosis.selection.search import Offer
 from app.diagnosis.thresholds.events import EDGE, MARGIN, MOST, SHORTEST
+from app.diagnosis.thresholds.friction import STRIBECK
 
 if TYPE_CHECKING:
     from app.diagnosis.effects.dynamic._law import Law
@@ -74,10 +75,17 @@ class Events:
         self._cached = (dict(selection), out)
         return out
 
-    def gain(self, selection: Selection, law: Law, place: Place) -> float:
-        """Evidence that a law at a place would add [nats], its penalty counted."""
+    def gain(self, selection: Selection, law: Law, place: Place, *, shown: bool = False) -> float:
+        """Evidence that a law at a place would add [nats], its penalty counted.
+
+        Args:
+            shown: by what friction cannot hide alone: joints while they move.
+        """
         inverse, parts, residual = self._beside(selection)
         columns, widths = law.block(self.state, place)
+        if shown:
+            creeps = np.abs(self.state.qd) < STRIBECK[-1] * self.state.speed
+            columns = {j: np.where(creeps[:, j, None], 0.0, values) for j, values in columns.items()}
         d, a = len(widths), len(inverse)
         gram, cross, right = np.zeros((d, d)), np.zeros((d, a)), np.zeros(d)
         for j, values in columns.items():
@@ -113,6 +121,8 @@ class Events:
             if gain < max(MARGIN, 0.3 * best):
                 continue
             law = self.laws[key]
+            if law.hidden and self.gain(selection, law, self._at(where), shown=True) < MARGIN:
+                continue
             cost = np.log(PIECES) * len(where)
             build = lambda law=law, where=where, cost=float(cost): self._take(selection, law, where, cost)  # noqa: E731
             yield Offer(gain - MARGIN, 1.0, build)
@@ -141,7 +151,7 @@ class Events:
                 begin, last = self._spells(first, share[edges], law)
                 choices = np.where(last < PIECES, 2.0, 1.0) * float(np.log(max(len(first), 1)))
             else:
-                begin, last = windows(share[edges])
+                begin, last = windows()
                 apart = [self._apart(selection, law, at(x), at(y)) for x, y in zip(begin, last, strict=True)]
                 begin, last = begin[apart], last[apart]
                 choices = np.full(len(begin), 2.0 * float(np.log(PIECES)))
@@ -194,6 +204,10 @@ class Events:
             ]
         return self._columns
 
+    @staticmethod
+    def _at(where: dict[str, float], cost: float = 0.0) -> Place:
+        return Place({"body": "tool", "driver": "time", **where}, cost=cost)
+
     def moved(self, selection: Selection, law: Law, place: Place) -> Place:
         """An event with its edges where they bring most beside a selection."""
         where = {k: float(place.where[k]) for k in (*law.ends, law.until) if k in place.where}
@@ -229,15 +243,11 @@ class Events:
                 more = [v[-1] - v for v in more]
             gram, cross, right = (s + m for s, m in zip(sums, more, strict=True))
             gain = block_gains(gram, cross, right, inverse)
-            if not held:
-                here = np.arange(low, low + len(gain))
-                goes = moving(share, *((here, edges[1]) if k == 0 else (edges[0], here)))
-                gain = np.where(goes, gain, -np.inf) if goes.any() else gain
             if len(gain):  # none where the log ends before the shortest event does
                 edges[k] = low + int(gain.argmax())
         step = float(np.median(np.diff(t)))
         times = [float(t[min(k, rows - 1)]) - (0.5 * step if k < rows else -step) for k in edges]
-        place = Place({"body": "tool", "driver": "time", **dict(zip(where, times, strict=False))}, cost=cost)
+        place = self._at(dict(zip(where, times, strict=False)), cost)
         best = self._at_exact_rows(selection, law, place, step)
         if law.swells:
             swelling = self._swelling(selection, law, place)
@@ -273,9 +283,7 @@ class Events:
             return Place({**even.where, **where}, {"fixed_swell": 1.0}, cost=even.cost + 1.0)
 
         def worse(ends: np.ndarray) -> float:
-            there = place(ends)
-            rows = np.searchsorted(self.state.t[SKIPPED:], [there.where["from_s"], there.where["to_s"]])
-            return -self.gain(selection, law, there) if moving(self._moved, *rows) else np.inf
+            return -self.gain(selection, law, place(ends))
 
         starts = [np.array([middle - wider * half, middle + wider * half]) for wider in SWELLS]
         start = min(starts, key=worse)

@@ -12,7 +12,7 @@ import numpy as np
 
 from app.diagnosis.models.dynamic.design import TorqueDesign
 from app.diagnosis.regression.evidence import Posterior
-from app.diagnosis.thresholds.events import LONGEST, MOVING
+from app.diagnosis.thresholds.events import LONGEST
 
 PIECES = 60  # of the log: edges of events are looked for at their ends first, and moved continuously then
 
@@ -74,23 +74,9 @@ def from_start(values: np.ndarray) -> np.ndarray:
     return np.concatenate([np.zeros_like(values[:1]), np.cumsum(values, axis=0)])
 
 
-def windows(share: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """First and last piece of every window that is tried.
-
-    Args:
-        share: (pieces + 1,) of the log's motion before each piece.
-    """
+def windows() -> tuple[np.ndarray, np.ndarray]:
+    """First and last piece of every window that is tried."""
     longest = int(LONGEST * PIECES)
     pairs = [(x, y) for x in range(PIECES) for y in range(x + 2, min(PIECES, x + longest) + 1)]
     first, last = np.array(pairs).T
-    goes = moving(share, first, last)
-    return first[goes], last[goes]
-
-
-def moving(share: np.ndarray, first: np.ndarray | int, last: np.ndarray | int) -> np.ndarray:
-    """Whether the arm moves in windows of rows (or pieces) first to last: friction at rest hides what pushes then.
-
-    Args:
-        share: (rows + 1,) of the log's motion before each row.
-    """
-    return np.asarray(share[last] - share[first] > MOVING * (last - first) / (len(share) - 1))
+    return first, last

@@ -15,9 +15,6 @@ MOST = 3
 #: nats by which an event must beat what else could be taken.
 MARGIN = 12.0
 
-#: Part of a contact's time in which the arm moves: friction at rest hides what pushes then.
-MOVING = 0.5
-
 #: s: a contact lasts longer.
 SHORTEST = 0.1
 

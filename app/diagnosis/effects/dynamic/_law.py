@@ -44,6 +44,7 @@ class Law(Effect[State, State, np.ndarray]):
             over the log where there are any.
         until: key of `where` that holds the time at which it may be over again, of a law with one end.
         swells: True where it may rise and fall between its times, as half a sine.
+        hidden: True for what friction of a joint that stands or creeps may hide: it must show where the joint moves.
         least_joints: an arm with fewer has no such thing.
         blunt: True where the direction of dry friction is in it: its sharpness is saved along.
         bent: shape value -> nepers to either side within which the fit may bend it.
@@ -84,6 +85,7 @@ class Law(Effect[State, State, np.ndarray]):
     ends: ClassVar[Sequence[str]] = ()
     until = ""
     swells = False
+    hidden = False
     least_joints = 1
     blunt = False
     bent: ClassVar[Mapping[str, float]] = {}

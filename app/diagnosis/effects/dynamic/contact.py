@@ -30,6 +30,7 @@ class Contact(Law):
     linear = _FORCE + _MOMENT
     ends = ("from_s", "to_s")
     swells = True
+    hidden = True
     least_joints = 2  # a torque for a while on one joint is no force at a flange
     lasting = False
 

@@ -17,6 +17,8 @@ if TYPE_CHECKING:
 
 #: Rounds of "rigid motion, then tool" before Gauss-Newton takes over, at most, and m by which the tool still moves.
 _ALTERNATIONS, _NEAR = 12, 1e-6
+#: Of the largest: a direction of the tool that turns less (squared) is not told by the rows.
+_TOLD = 1e-9
 
 
 def nuisance_columns(recording: StaticRecording, columns: Sensitivity) -> np.ndarray:
@@ -107,6 +109,7 @@ def _rigid(measured: np.ndarray, rotations: np.ndarray, positions: np.ndarray):
             advice="measure more poses",
         )  # fmt: skip
     rotation, origin = np.eye(3), np.zeros(3)
+    solvers = [(r, rows, *_centred(rotations[rows])) for r, rows in enumerate(seen.T) if rows.sum() >= 3]
     for _ in range(_ALTERNATIONS):
         before = tools.copy()
         here = positions[:, None] + np.einsum("mij,rj->mri", rotations, tools)
@@ -114,20 +117,21 @@ def _rigid(measured: np.ndarray, rotations: np.ndarray, positions: np.ndarray):
         ca, cb = a.mean(axis=0), b.mean(axis=0)
         rotation = nearest_rotation((a - ca).T @ (b - cb))
         origin = ca - rotation @ cb
-        for r in range(reflectors):
-            rows = np.asarray(seen)[:, r]
-            if rows.sum() < 3:
-                continue
+        for r, rows, turned, solve in solvers:
             # origin and tool together, so that the alternation converges quickly
-            design = np.concatenate(
-                [(rotation @ rotations[rows]).reshape(-1, 3), np.tile(np.eye(3), (int(rows.sum()), 1))],
-                axis=1,
-            )
-            rhs = (measured[rows, r] - positions[rows] @ rotation.T).reshape(-1)
-            tools[r] = np.linalg.lstsq(design, rhs, rcond=1e-6)[0][:3]
+            off = measured[rows, r] @ rotation - positions[rows]
+            tools[r] = solve @ np.einsum("mij,mi->j", turned, off - off.mean(axis=0))
         if np.abs(tools - before).max() < _NEAR:
             break
     return rotation, origin, tools
+
+
+def _centred(rotations: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Rotations (m, 3, 3) less their mean, and the (3, 3) pseudo-inverse of the sum of their squares."""
+    turned = rotations - rotations.mean(axis=0)
+    values, vectors = np.linalg.eigh(np.einsum("mij,mik->jk", turned, turned))
+    told = values > _TOLD * max(float(values[-1]), 1e-300)
+    return turned, (vectors[:, told] / values[told]) @ vectors[:, told].T
 
 
 def _anchor(positions: np.ndarray, lengths: np.ndarray) -> np.ndarray:
