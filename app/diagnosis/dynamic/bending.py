@@ -49,9 +49,8 @@ def reshape(study: Study) -> None:
             for dropped in ([alike] if alike else []) + [[]]:
                 beside = {k: v for k, v in rest.items() if k not in dropped}
                 law, place = study.label(g).law, study.label(g).place
-                moved = study.events.moved(beside, law, place)
-                trial = {**beside, study.add(law, moved): 1.0}
+                moved, gain = study.events.moved(beside, law, place)
                 margin = -MERGE if dropped else BETTER
-                if study.evidence.score(trial) > study.evidence.score(study.selection) + margin:
-                    study.selection = trial
+                if study.evidence.score(beside) + gain > study.evidence.score(study.selection) + margin:
+                    study.selection = {**beside, study.add(law, moved): 1.0}
                     break

@@ -12,7 +12,7 @@ from app.diagnosis.model import ModelEffect
 from app.diagnosis.models.dynamic.hypothesis import Hypothesis, as_given
 from app.diagnosis.models.dynamic.library import laws
 from app.diagnosis.models.dynamic.samples import Samples
-from app.diagnosis.models.dynamic.saved import Predicted, beside, hypothesis_of
+from app.diagnosis.models.dynamic.saved import Predicted, beside, hypothesis_of, torque_of
 from app.diagnosis.result import MOTION_FAMILIES, FamilyShare, Quality
 from app.diagnosis.thresholds.naming_logs import LEAST
 
@@ -96,15 +96,17 @@ def _left(
     read += [e for e in effects if laws()[e.effect].whole_log and in_kept(e)]
     hypothesis = hypothesis_of([*read, *learnt], joints) if read or learnt else as_given(joints)
     own = study.state.hypothesis
-    inside = [m for m in found if not m.held and m.candidate.law.family in kept]
+    # How far values learnt on another log are off here belongs to no family: it is in from the first.
+    in_first = [m for m in found if m.candidate.law.certain or m.candidate.law.family in kept]
+    inside = [m for m in in_first if not m.held]
     if hypothesis.key != own.key:
-        return error_with(samples_under(hypothesis), inside)
-    outside = [m.columns for m in found if m.candidate.law.family not in kept]
+        samples = samples_under(hypothesis)
+        return error_with(samples, inside, torque_of(samples, filter(in_kept, _given(fitted, effects))))
+    outside = [m.columns for m in found if m not in in_first]
     moved = [e for e in effects if e in _given(fitted, effects) and not in_kept(e)]
-    parts = beside(study.samples, moved).parts
-    added = sum((part for _, part in parts), np.zeros_like(study.y))
+    added = torque_of(study.samples, moved)
     columns = np.concatenate(outside) if outside else np.zeros(0, int)
-    residual = own.recorded(heldout_without(study, fitted.solution, columns, np.asarray(added)))
+    residual = own.recorded(heldout_without(study, fitted.solution, columns, added))
     samples = study.samples
     return float(np.sqrt(np.mean(residual[samples.used] ** 2) + np.mean(samples.within)))
 

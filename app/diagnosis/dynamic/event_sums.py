@@ -16,15 +16,24 @@ def between(white, parts, residual, size: int, rows: slice) -> tuple[np.ndarray,
     return gram, cross, right
 
 
-def by_row(white, parts, residual, size: int, rows: slice) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """The same row by row, (m, ...)."""
-    m, d = rows.stop - rows.start, white[0].shape[1]
+def by_rows(
+    white, parts, residual, size: int, rows: slice, stride: int
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """The same for every so many rows, (m, ...); the last ones may be fewer."""
+    count, d = rows.stop - rows.start, white[0].shape[1]
+    m = -(-count // stride)
+
+    def cut(values: np.ndarray) -> np.ndarray:
+        whole = np.zeros((m * stride, values.shape[1]))
+        whole[:count] = values[rows]
+        return whole.reshape(m, stride, values.shape[1])
+
     gram, cross, right = np.zeros((m, d, d)), np.zeros((m, d, size)), np.zeros((m, d))
     for z, (x, ids), r in zip(white, parts, residual, strict=True):
-        z = z[rows]
-        gram += z[:, :, None] * z[:, None, :]
-        cross[:, :, ids] += z[:, :, None] * x[rows][:, None, :]
-        right += z * r[rows, None]
+        own = np.swapaxes(cut(z), 1, 2)
+        gram += own @ np.swapaxes(own, 1, 2)
+        cross[:, :, ids] += own @ cut(x)
+        right += (own @ cut(r[:, None]))[:, :, 0]
     return gram, cross, right
 
 

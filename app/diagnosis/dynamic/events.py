@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from app.diagnosis.dynamic.event_sums import between, block_gains, by_row, gains
+from app.diagnosis.dynamic.event_sums import between, block_gains, by_rows, gains
 from app.diagnosis.dynamic.pieces import PIECES, Pieces, beside, from_start, windows
+from app.diagnosis.dynamic.swelling import swelling
 from app.diagnosis.effects.effect import Place
 from app.diagnosis.models.dynamic.design import TorqueDesign
 from app.diagnosis.models.dynamic.library import Candidate, group_of, laws
@@ -24,8 +25,7 @@ if TYPE_CHECKING:
     from app.diagnosis.effects.dynamic._law import Law
 
 
-SWELLS = (1.0, 1.3)  # lengths of a contact that swells and fades over that of the best even one
-TRIALS = 40  # edges of such a contact that are tried
+STRIDE = 4  # rows between edges that are tried at once; single rows are tried around the best
 
 
 class Events:
@@ -208,15 +208,15 @@ class Events:
     def _at(where: dict[str, float], cost: float = 0.0) -> Place:
         return Place({"body": "tool", "driver": "time", **where}, cost=cost)
 
-    def moved(self, selection: Selection, law: Law, place: Place) -> Place:
-        """An event with its edges where they bring most beside a selection."""
+    def moved(self, selection: Selection, law: Law, place: Place) -> tuple[Place, float]:
+        """An event with its edges where they bring most beside a selection, and how much that is [nats]."""
         where = {k: float(place.where[k]) for k in (*law.ends, law.until) if k in place.where}
-        return self._refined(selection, law, where, place.cost)[0]
+        return self._refined(selection, law, where, place.cost)
 
     def _refined(
         self, selection: Selection, law: Law, where: dict[str, float], cost: float
     ) -> tuple[Place, float]:
-        """Edges at single rows, each in turn at the most evidence; a contact may also swell and fade."""
+        """Each edge in turn at the most evidence, then at single rows; a contact may also swell and fade."""
         inverse, parts, residual = self._beside(selection)
         held, once = len(law.ends) == 1, len(where) == 1
         white = [z[:, self._own[law.key]] for z in self._whitened()]
@@ -237,21 +237,20 @@ class Events:
             # Sums over the part that every trial has, and row by row over what it may have more.
             fixed = slice(high, edges[1]) if k == 0 else slice(edges[0], low)
             sums = between(white, parts, residual, len(inverse), fixed)
-            single = by_row(white, parts, residual, len(inverse), slice(low, high))
+            single = by_rows(white, parts, residual, len(inverse), slice(low, high), STRIDE)
             more = [from_start(v) for v in single]
             if k == 0:  # a later first edge leaves rows out
                 more = [v[-1] - v for v in more]
             gram, cross, right = (s + m for s, m in zip(sums, more, strict=True))
             gain = block_gains(gram, cross, right, inverse)
             if len(gain):  # none where the log ends before the shortest event does
-                edges[k] = low + int(gain.argmax())
+                edges[k] = min(low + STRIDE * int(gain.argmax()), high)
         step = float(np.median(np.diff(t)))
         times = [float(t[min(k, rows - 1)]) - (0.5 * step if k < rows else -step) for k in edges]
         place = self._at(dict(zip(where, times, strict=False)), cost)
         best = self._at_exact_rows(selection, law, place, step)
         if law.swells:
-            swelling = self._swelling(selection, law, place)
-            best = max(best, swelling, key=lambda found: found[0])
+            best = max(best, swelling(self, selection, law, place), key=lambda found: found[0])
         return best[1], best[0]
 
     def _at_exact_rows(
@@ -270,33 +269,6 @@ class Events:
                 )
                 best = max(best, (self.gain(selection, law, trial), trial), key=lambda found: found[0])
         return best
-
-    def _swelling(self, selection: Selection, law: Law, even: Place) -> tuple[float, Place]:
-        """The best contact that rises and falls as half a sine, as a push by hand does, and its evidence."""
-        from scipy.optimize import minimize
-
-        first, last = even.where["from_s"], even.where["to_s"]
-        middle, half, least = 0.5 * (first + last), 0.5 * (last - first), 0.5 * SHORTEST
-
-        def place(ends: np.ndarray) -> Place:
-            where = {"from_s": float(ends[0]), "to_s": float(max(ends[1], ends[0] + least))}
-            return Place({**even.where, **where}, {"fixed_swell": 1.0}, cost=even.cost + 1.0)
-
-        def worse(ends: np.ndarray) -> float:
-            return -self.gain(selection, law, place(ends))
-
-        starts = [np.array([middle - wider * half, middle + wider * half]) for wider in SWELLS]
-        start = min(starts, key=worse)
-        found = minimize(
-            worse,
-            start,
-            method="Nelder-Mead",
-            options={
-                "maxfev": TRIALS,
-                "initial_simplex": start + 0.1 * half * np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]),
-            },
-        )
-        return float(-found.fun), place(found.x)
 
 
 def _is_event(found: object) -> bool:

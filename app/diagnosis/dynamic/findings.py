@@ -22,7 +22,7 @@ from app.diagnosis.models.dynamic.commands import lag_findings
 from app.diagnosis.models.dynamic.hypothesis import as_given
 from app.diagnosis.models.dynamic.library import laws
 from app.diagnosis.models.dynamic.repeats import noise_of_repeats
-from app.diagnosis.models.dynamic.saved import beside, hypothesis_of
+from app.diagnosis.models.dynamic.saved import beside, hypothesis_of, torque_of
 from app.diagnosis.result import (
     UNNAMED,
     Alternative,
@@ -161,7 +161,8 @@ def _without(
     ]
     samples = take_as(hypothesis_of(rest, fitted.robot.joint_count))
     others = [m for m in found if not m.held]
-    return error_with(samples, others)
+    learnt = effects[: len(fitted.given)]  # what another log taught stays as it is
+    return error_with(samples, others, torque_of(samples, [e for e in rest if e in learnt]))
 
 
 def _finding(fitted: Fitted, member: Member, after: Quality, undone) -> Finding:

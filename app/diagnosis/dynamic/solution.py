@@ -205,9 +205,13 @@ class _Turns:
         return out
 
 
-def error_with(samples: Samples, chosen: Sequence[Member]) -> float:
-    """Held-out root mean square [Nm] of laws fitted to windows under any hypothesis, every sample alike."""
-    state, y = samples.state, samples.y - samples.description
+def error_with(samples: Samples, chosen: Sequence[Member], known: np.ndarray) -> float:
+    """Held-out root mean square [Nm] of laws fitted to windows under any hypothesis, every sample alike.
+
+    Args:
+        known: (M, n) torque that is taken for part of the description [Nm].
+    """
+    state, y = samples.state, samples.y - samples.description - known
     folds = folds_of(len(y))
     columns, precision = [], []
     for m in chosen:

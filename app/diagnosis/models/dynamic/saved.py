@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -55,6 +55,12 @@ def beside(samples: Samples, effects: Sequence[ModelEffect]) -> Predicted:
         state = state.with_torque(total, total)  # what the gears carry is known once masses and loads are in
     left = samples.state.hypothesis.recorded(samples.y - total)
     return Predicted(samples, tuple(parts), left)
+
+
+def torque_of(samples: Samples, effects: Iterable[ModelEffect]) -> np.ndarray:
+    """(M, n) torque of some effects of a model beside the description's [Nm]."""
+    parts = beside(samples, list(effects)).parts
+    return sum((part for _, part in parts), np.zeros_like(samples.y))
 
 
 def _torque(state: State, effect: ModelEffect, shape: tuple[int, ...]) -> np.ndarray:

@@ -109,7 +109,9 @@ def _rigid(measured: np.ndarray, rotations: np.ndarray, positions: np.ndarray):
             advice="measure more poses",
         )  # fmt: skip
     rotation, origin = np.eye(3), np.zeros(3)
-    solvers = [(r, rows, *_centred(rotations[rows])) for r, rows in enumerate(seen.T) if rows.sum() >= 3]
+    solvers = [
+        (r, rows, *_centred(rotations[rows])) for r, rows in enumerate(np.asarray(seen).T) if rows.sum() >= 3
+    ]
     for _ in range(_ALTERNATIONS):
         before = tools.copy()
         here = positions[:, None] + np.einsum("mij,rj->mri", rotations, tools)
