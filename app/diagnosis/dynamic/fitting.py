@@ -28,8 +28,8 @@ from app.kinematics import RobotModel
 
 ROUNDS = 3
 SETTLING = 5  # repetitions of undoing what remains of a delay, a factor, a mounting
-#: In standard deviations: so little of an undone effect may remain. It makes an interval 3% wider.
-SETTLED = 0.25
+#: In nominal widths: what remains of an undone effect is nothing then.
+SETTLED = 0.003
 
 
 @dataclass(frozen=True, eq=False)
@@ -205,9 +205,10 @@ def _undone(study: Study, hypothesis: Hypothesis, plain: bool) -> tuple[Hypothes
     weighed = solve(study, plain=True) if plain and held else None
     for g in held:
         candidate, columns = study.label(g), study.group(g).columns
-        scale = study.design.scale[columns]
-        values, covariance = study.posterior().of(columns) if weighed is None else weighed.of(columns)
-        if np.any(np.abs(values) > SETTLED * np.sqrt(np.maximum(np.diag(covariance), 0.0))):
-            values = values * scale
+        if weighed is None:
+            values, _ = study.values(g)
+        else:
+            values = weighed.of(columns)[0] * study.design.scale[columns]
+        if np.any(np.abs(values / candidate.law.widths(study.state, candidate.place)) > SETTLED):
             hypothesis, moved = candidate.law.undo(hypothesis, candidate.place, values), True
     return hypothesis, moved
