@@ -1,8 +1,9 @@
 import threading
+import time
 
 import pytest
 
-from app.session.motion.worker import Worker
+from app.session.motion.worker import TOGETHER_HZ, Worker
 
 
 @pytest.fixture
@@ -135,3 +136,30 @@ def test_what_waits_can_be_given_up(worker):
     worker.later("settle", 0.05, lambda: done.append("settled"))
     worker.halt("settle")
     assert worker.idle() and not done
+
+
+def test_many_that_move_at_once_share_the_ticks_of_their_process():
+    ticks = []
+
+    def goes_on():
+        while True:
+            ticks.append(time.monotonic())
+            yield
+
+    workers = [Worker(f"arm-{k}", lambda job: job()) for k in range(40)]
+    try:
+        for worker in workers:
+            worker.post(lambda worker=worker: worker.animate("jog", goes_on()))
+        time.sleep(0.5)  # all of them move
+        begun, before = time.monotonic(), len(ticks)
+        time.sleep(1.0)
+        a_second = (len(ticks) - before) / (time.monotonic() - begun)
+        assert 0 < a_second <= 1.1 * TOGETHER_HZ  # forty at their own pace would be 1,200
+        for worker in workers[1:]:
+            worker.stop()
+        before = len(ticks)
+        time.sleep(0.5)
+        assert len(ticks) > before  # the one that is left goes on
+    finally:
+        for worker in workers:
+            worker.stop()
