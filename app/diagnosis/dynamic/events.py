@@ -49,6 +49,7 @@ class Events:
         self._pieces: list[Pieces] | None = None
         self._cached: tuple[Selection, tuple] | None = None
         self._posterior = None
+        self._unsure: set[tuple] = set()  # what was looked at and is none
 
     # -------------------------------------------------------------- what a law would bring
 
@@ -75,19 +76,21 @@ class Events:
         self._cached = (dict(selection), out)
         return out
 
-    def gain(self, selection: Selection, law: Law, place: Place, *, shown: bool = False) -> float:
+    def gain(self, selection: Selection, law: Law, place: Place, *, surely: bool = False) -> float:
         """Evidence that a law at a place would add [nats], its penalty counted.
 
         Args:
-            shown: by what friction cannot hide alone: joints while they move.
+            surely: by what friction cannot hide alone, joints while they move, and by no more than it would be if the
+                noise during the event were whatever the event leaves there: a loud stretch is no event.
         """
         inverse, parts, residual = self._beside(selection)
         columns, widths = law.block(self.state, place)
-        if shown:
-            creeps = np.abs(self.state.qd) < STRIBECK[-1] * self.state.speed
-            columns = {j: np.where(creeps[:, j, None], 0.0, values) for j, values in columns.items()}
+        counts = np.ones_like(self.state.qd, bool)
+        if surely and law.hidden:
+            counts = np.abs(self.state.qd) >= STRIBECK[-1] * self.state.speed
         d, a = len(widths), len(inverse)
         gram, cross, right = np.zeros((d, d)), np.zeros((d, a)), np.zeros(d)
+        squares, rows_in = 0.0, 0
         for j, values in columns.items():
             rows = np.flatnonzero(values.any(axis=1))
             if not self.design.alive[j] or not len(rows):
@@ -97,12 +100,18 @@ class Events:
             end = int(rows[-1]) + 1 + whitener.memory
             white = whitener(values[begin:end] * widths)
             part = slice(begin, begin + len(white))
+            own, left = counts[SKIPPED:][part, j], residual[j][part]
+            if not own.all():
+                white = white * own[:, None]
+            squares, rows_in = squares + float(np.sum(left[own] ** 2)), rows_in + int(own.sum())
             gram += white.T @ white
             cross[:, parts[j][1]] += white.T @ parts[j][0][part]
-            right += white.T @ residual[j][part]
+            right += white.T @ left
         block = gram - cross @ inverse @ cross.T + np.eye(d)
-        fit = 0.5 * right @ np.linalg.solve(block, right) - 0.5 * float(np.linalg.slogdet(block)[1])
-        return float(fit) - law.penalty - place.cost
+        fit = 0.5 * float(right @ np.linalg.solve(block, right))
+        if surely and 2.0 * fit < squares:
+            fit = min(fit, -0.5 * rows_in * float(np.log1p(-2.0 * fit / squares)))
+        return fit - 0.5 * float(np.linalg.slogdet(block)[1]) - law.penalty - place.cost
 
     # -------------------------------------------------------------- events
 
@@ -120,15 +129,19 @@ class Events:
         for key, where, gain in scanned:
             if gain < max(MARGIN, 0.3 * best):
                 continue
-            law = self.laws[key]
-            if law.hidden and self.gain(selection, law, self._at(where), shown=True) < MARGIN:
+            law, seat, cost = self.laws[key], (key, *where.values()), float(np.log(PIECES) * len(where))
+            if seat in self._unsure:
                 continue
-            cost = np.log(PIECES) * len(where)
-            build = lambda law=law, where=where, cost=float(cost): self._take(selection, law, where, cost)  # noqa: E731
-            yield Offer(gain - MARGIN, 1.0, build)
+            place, _ = self._refined(selection, law, where, cost)
+            apart = self._apart(
+                selection, law, place.where["from_s"], place.where.get("to_s", self.state.t[-1])
+            )
+            if not apart or self.gain(selection, law, place, surely=True) < MARGIN:
+                self._unsure.add(seat)
+                continue
+            yield Offer(gain - MARGIN, 1.0, lambda law=law, place=place: self._take(law, place))
 
-    def _take(self, selection: Selection, law: Law, where: dict[str, float], cost: float) -> int:
-        place, _ = self._refined(selection, law, where, cost)
+    def _take(self, law: Law, place: Place) -> int:
         own = self.design.add([law.block(self.state, place)])[0]
         self.evidence.groups.append(group_of(Candidate(law, place), own))
         return len(self.evidence.groups) - 1
@@ -149,12 +162,13 @@ class Events:
         for key, law in self.laws.items():
             if len(law.ends) == 1:
                 begin, last = self._spells(first, share[edges], law)
-                choices = np.where(last < PIECES, 2.0, 1.0) * float(np.log(max(len(first), 1)))
+                price = float(np.log(max(len(first), 1)))
             else:
                 begin, last = windows()
-                apart = [self._apart(selection, law, at(x), at(y)) for x, y in zip(begin, last, strict=True)]
-                begin, last = begin[apart], last[apart]
-                choices = np.full(len(begin), 2.0 * float(np.log(PIECES)))
+                price = float(np.log(PIECES))
+            apart = [self._apart(selection, law, at(x), at(y)) for x, y in zip(begin, last, strict=True)]
+            begin, last = begin[apart], last[apart]
+            choices = np.where((last < PIECES) | (len(law.ends) > 1), 2.0, 1.0) * price
             if not len(begin):
                 continue
             gain = gains(gram, cross, right, inverse, begin, last, self._own[key]) - choices
@@ -177,11 +191,18 @@ class Events:
         return begin, last
 
     def _apart(self, selection: Selection, law: Law, since: float, until: float) -> bool:
-        """False near an event of this kind in a selection: what else pushes then is its shape, and none of its own."""
-        near = 2.0 * float(self.state.t[-1] - self.state.t[0]) / PIECES
+        """False near an event of this kind in a selection: what else pushes then is its shape, and none of its own.
+
+        Of changes of load those with both times alike; they may follow each other, and stand in each other.
+        """
+        end = float(self.state.t[-1])
+        near = 2.0 * (end - float(self.state.t[0])) / PIECES
         labels = [self.evidence.groups[g].label for g in selection]
         there = [c.place.where for c in labels if isinstance(c, Candidate) and c.law is law]
-        return all(until + near <= where["from_s"] or since - near >= where["to_s"] for where in there)
+        times = [(where["from_s"], where.get("to_s", end)) for where in there]
+        if len(law.ends) == 1:
+            return all(abs(since - a) >= near or abs(until - b) >= near for a, b in times)
+        return all(until + near <= a or since - near >= b for a, b in times)
 
     @cached_property
     def _moved(self) -> np.ndarray:

@@ -18,7 +18,7 @@ class _Known(NamedTuple):
     within: str
     exclusive: str
     whole: bool
-    load: bool
+    closed: bool
     beside: str
     clashes: set[str]
 
@@ -48,7 +48,7 @@ class Rules:
         clashing = {k for g in loose for k in known[g].clashes} | whole
         return [
             g for g, k in enumerate(known)
-            if not k.load and k.key not in clashing and g not in selection and k.exclusive not in taken
+            if not k.closed and k.key not in clashing and g not in selection and k.exclusive not in taken
             and (not k.needs or k.needs in names or k.within in whole)
             and (not k.clashes or keys.isdisjoint(k.clashes))
             and (not k.beside or k.beside in whole) and not (k.whole and k.key in fixed)
@@ -66,7 +66,8 @@ class Rules:
                     c.law.within,
                     group.exclusive,
                     c.whole,
-                    self._is_load(c),
+                    c.law.windowed
+                    or self._is_load(c),  # events are offered with their times, and no other way
                     c.law.beside if c.whole else "",
                     self._clashes(c),
                 )

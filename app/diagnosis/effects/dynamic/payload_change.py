@@ -21,6 +21,7 @@ class PayloadChange(Load):
     equation = "tau = (from_s < t < to_s) * tau of a mass at its centre in the flange frame"
     ends = ("from_s",)
     until = "to_s"
+    hidden = True
     lasting = False
 
     def places(self, situation: State) -> Iterable[Place]:
