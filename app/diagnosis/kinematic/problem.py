@@ -146,9 +146,9 @@ class Problem:
         ]
 
     def scan(self, selection: Selection) -> Iterable[Offer]:
-        """Changes at rows; recordings of several sessions have set-ups of their own there."""
+        """Changes at rows; what a session's own set-up takes of them is taken off already."""
         linear = self.linear
-        if linear.state.recording.session_count > 1 or not self.library.scanned:
+        if not self.library.scanned:
             return
         order = self.library.situation.order
         # no two changes start together: what takes several rows to come about would be several of them

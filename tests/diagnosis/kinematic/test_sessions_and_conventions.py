@@ -7,6 +7,7 @@ from app.diagnosis.kinematic.diagnose import diagnose
 from app.geometry import Pose, exp_so3
 from app.kinematics import load_robot
 from app.recordings import read_table
+from tests.diagnosis.kinematic.simulating import poses, term, tracker_rows, write_tracker
 
 NOISE = 5e-5  # m
 TOOL = np.array([0.02, -0.03, 0.11])
@@ -92,3 +93,17 @@ def test_an_instrument_whose_frame_is_left_handed_is_said_so(tmp_path):
     found = diagnose(read_table(path), load_robot("ur10e"))
     assert [f.effect for f in found.findings] == ["wrong_convention"]
     assert "left-handed" in found.findings[0].sentence and found.after.fit_rms < 1.2e3 * NOISE
+
+
+def test_a_change_in_one_of_two_sessions_is_told_with_its_row(arm, tmp_path):
+    """Each session has a set-up of its own; what changes within one is in none of them."""
+    rng = np.random.default_rng(311)
+    q = poses(arm, rng, 90)
+    moved = term("base_shift", {"body": "base", "from_row": 27}, [1e-3, 0.0, -8e-4], turning=0.0)
+    points = tracker_rows(arm, q, (moved,), rng=rng)
+    points[45:] = points[45:] @ exp_so3(np.array([0.1, -0.2, 0.3])).T + np.array([0.2, -0.1, 0.05])
+    path = tmp_path / "two.csv"
+    session = np.repeat([1.0, 2.0], 45)
+    found = diagnose(write_tracker(path, arm, q, points, extra={"session": session}), arm)
+    assert [(f.effect, f.where["from_row"]) for f in found.findings] == [("base_shift", 27)]
+    assert found.verdict == "named"
