@@ -74,6 +74,8 @@ class Finding:
         sentence: what an operator reads.
         equation: the law.
         heldout_unit: of both held-out errors, where it is not the diagnosis's own.
+        share: (0..1) of the mean square of `before`, above noise, that is lost without it, the rest as it is; NaN where
+            nobody measured it. For people: the JSON has it by family.
     """
 
     effect: str
@@ -87,6 +89,7 @@ class Finding:
     sentence: str
     equation: str
     heldout_unit: str = ""
+    share: float = float("nan")
 
 
 @dataclass(frozen=True)
@@ -259,6 +262,7 @@ def _finding(finding: Finding) -> dict[str, Any]:
     out = _plain(finding)
     if not finding.heldout_unit:
         del out["heldout_unit"]
+    del out["share"]
     return out
 
 

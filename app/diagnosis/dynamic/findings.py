@@ -194,6 +194,7 @@ def _finding(fitted: Fitted, member: Member, after: Quality, undone) -> Finding:
         alternatives=others,
         sentence=law.sentence(place, parameters),
         equation=law.equation,
+        share=member.share,
     )
 
 

@@ -104,7 +104,12 @@ def shown(of: Budget) -> tuple[Step, ...]:
 
 
 def law_share(finding: Finding, diagnosis: Diagnosis) -> float:
-    """Share (0..1) of the mean square before that comes back when this one finding is taken out; NaN if unknown."""
+    """Share (0..1) of the mean square before that comes back when this one finding is taken out; NaN if unknown.
+
+    As of families: the rest as it is. Where that was not measured, the rest refitted.
+    """
+    if math.isfinite(finding.share):
+        return max(0.0, min(1.0, finding.share))
     before = diagnosis.before.heldout_rms
     without, with_it = finding.heldout_rms_without, finding.heldout_rms_with
     if finding.heldout_unit or not (math.isfinite(before) and before > 0):

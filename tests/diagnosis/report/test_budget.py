@@ -141,3 +141,10 @@ def test_a_family_that_is_one_law_is_named_though_others_could_take_over_most_of
     assert (step.members, step.small) == ((0,), ())
     faint = dataclasses.replace(told, families=(FamilyShare("elasticity", 0.01, 0.06, (0,)),))
     assert budget(faint).steps[0].small == (0,)
+
+
+def test_a_finding_whose_share_was_measured_has_it_whatever_others_take_over_of_it():
+    """Friction of six joints: taken out one by one, the others bend to it; it is 19% of the error all the same."""
+    taken_over = dataclasses.replace(compliance(), heldout_rms_without=0.0601, heldout_rms_with=0.06)
+    assert law_share(taken_over, arm_off_everywhere()) < 0.01
+    assert law_share(dataclasses.replace(taken_over, share=0.19), arm_off_everywhere()) == 0.19
