@@ -62,9 +62,8 @@ def duration(robot: RobotModel, start: np.ndarray, end: np.ndarray, points: np.n
 def tip_seconds(robot: RobotModel, start: np.ndarray, end: np.ndarray, points: np.ndarray) -> float:
     """The same for the points alone, whatever the joints do."""
     furthest = float(np.abs(end - start).max(initial=0.0))
-    looks = min(
-        _LOOKS, max(1, math.ceil(furthest / _LOOK))
-    )  # a tick of a jog needs no more than its two ends
+    # A tick of a jog needs no more than its two ends.
+    looks = min(_LOOKS, max(1, math.ceil(furthest / _LOOK)))
     flanges = np.array([robot.flange_matrix(start + (end - start) * (k / looks)) for k in range(looks + 1)])
     places = flanges[:, None, :3, 3] + points @ flanges[:, :3, :3].transpose(0, 2, 1)
     fastest = float(np.linalg.norm(np.diff(places, axis=0), axis=2).max(initial=0.0)) * looks

@@ -79,6 +79,7 @@ class Worker:
         """
         with self._wake:
             self._motions[name] = steps
+            _MOVING.add(self)
             self._wake.notify()
 
     def later(self, name: str, seconds: float, job: Job) -> None:
@@ -104,6 +105,7 @@ class Worker:
             for key in [name] if name is not None else [*self._motions, *self._timers]:
                 self._motions.pop(key, None)
                 self._timers.pop(key, None)
+            self._count()
 
     def running(self, name: str) -> bool:
         """True while the motion of this name runs."""
@@ -126,7 +128,7 @@ class Worker:
             self._queue.clear()
             self._motions.clear()
             self._timers.clear()
-            _MOVING.discard(self)
+            self._count()
             self._wake.notify()
         if threading.current_thread() is not self._thread:
             self._thread.join(timeout=5.0)
@@ -157,7 +159,6 @@ class Worker:
                 with _TICKING:
                     for name, steps in list(self._motions.items()):
                         self._around(lambda name=name, steps=steps: self._advance(name, steps))
-                (_MOVING.add if self._motions else _MOVING.discard)(self)
                 next_tick = max(next_tick + max(1.0 / TICK_HZ, len(_MOVING) / TOGETHER_HZ), now)
             with self._wake:
                 self._busy = False
@@ -176,3 +177,9 @@ class Worker:
         with self._wake:
             if self._motions.get(name) is steps:
                 del self._motions[name]
+            self._count()
+
+    def _count(self) -> None:
+        """Motions were taken away: without any this arm takes no share of the ticks."""
+        if not self._motions:
+            _MOVING.discard(self)

@@ -3,7 +3,7 @@ import time
 
 import pytest
 
-from app.session.motion.worker import TOGETHER_HZ, Worker
+from app.session.motion.worker import _MOVING, TOGETHER_HZ, Worker
 
 
 @pytest.fixture
@@ -160,6 +160,8 @@ def test_many_that_move_at_once_share_the_ticks_of_their_process():
         before = len(ticks)
         time.sleep(0.5)
         assert len(ticks) > before  # the one that is left goes on
+        workers[0].halt()
+        assert not _MOVING.intersection(workers)  # what stands takes no share
     finally:
         for worker in workers:
             worker.stop()
