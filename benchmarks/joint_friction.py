@@ -4,8 +4,8 @@ diagnosis.
     python -m benchmarks joint_friction [--write]
 
 Root mean square of what the torque leaves, over all rows, as published for the same log (NNFM, the README of
-longshike/NNFM-A-Novel-Neural-Network-Modeling-Approach-for-Robot-Flexible-Joints-Friction): their forms were fitted to
-all rows, so the forms fitted here are too; held out, by stretches of time, stands beside.
+longshike/NNFM-A-Novel-Neural-Network-Modeling-Approach-for-Robot-Flexible-Joints-Friction); how those forms were fitted
+is not said there. The forms fitted here learn from all rows too; held out, by stretches of time, stands beside.
 """
 
 from __future__ import annotations

@@ -258,7 +258,7 @@ class Diagnosis:
 
 
 def _finding(finding: Finding) -> dict[str, Any]:
-    """The unit of its errors is only said where it is not the one of `before` and `after`."""
+    """The unit of its errors is only said where it is not that of `before` and `after`; shares are said by family."""
     out = _plain(finding)
     if not finding.heldout_unit:
         del out["heldout_unit"]

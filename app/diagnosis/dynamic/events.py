@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from app.diagnosis.dynamic.event_sums import between, block_gains, by_rows, gains
-from app.diagnosis.dynamic.pieces import PIECES, Pieces, beside, from_start, windows
+from app.diagnosis.dynamic.pieces import PIECES, Pieces, beside, from_start, spells, windows
 from app.diagnosis.dynamic.swelling import swelling
 from app.diagnosis.effects.effect import Place
 from app.diagnosis.models.dynamic.design import TorqueDesign
@@ -85,7 +85,7 @@ class Events:
         """
         inverse, parts, residual = self._beside(selection)
         columns, widths = law.block(self.state, place)
-        counts = np.ones_like(self.state.qd, bool)
+        counts = None  # rows of each joint that speak for it, where not all do
         if surely and law.hidden:
             counts = np.abs(self.state.qd) >= STRIBECK[-1] * self.state.speed
         d, a = len(widths), len(inverse)
@@ -100,10 +100,14 @@ class Events:
             end = int(rows[-1]) + 1 + whitener.memory
             white = whitener(values[begin:end] * widths)
             part = slice(begin, begin + len(white))
-            own, left = counts[SKIPPED:][part, j], residual[j][part]
-            if not own.all():
-                white = white * own[:, None]
-            squares, rows_in = squares + float(np.sum(left[own] ** 2)), rows_in + int(own.sum())
+            left = residual[j][part]
+            if counts is not None:
+                own = counts[SKIPPED:][part, j]
+                white, left = white * own[:, None], left * own
+                rows_in += int(own.sum())
+            else:
+                rows_in += len(left)
+            squares += float(left @ left)
             gram += white.T @ white
             cross[:, parts[j][1]] += white.T @ parts[j][0][part]
             right += white.T @ left
@@ -156,17 +160,17 @@ class Events:
         gram, cross, right = beside(self._pieces, self.design, found)
         out = []
         t = self.state.t[SKIPPED:]
-        at = lambda k: float(t[min(edges[k], rows - 1)])  # noqa: E731
+        at = t[np.minimum(edges, rows - 1)]
         share = self._moved
         first = np.flatnonzero((share[edges] >= EDGE) & (share[edges] <= 1.0 - EDGE))
         for key, law in self.laws.items():
             if len(law.ends) == 1:
-                begin, last = self._spells(first, share[edges], law)
+                begin, last = spells(first, share[edges], over=bool(law.until))
                 price = float(np.log(max(len(first), 1)))
             else:
                 begin, last = windows()
                 price = float(np.log(PIECES))
-            apart = [self._apart(selection, law, at(x), at(y)) for x, y in zip(begin, last, strict=True)]
+            apart = self._apart(selection, law, at[begin], at[last])
             begin, last = begin[apart], last[apart]
             choices = np.where((last < PIECES) | (len(law.ends) > 1), 2.0, 1.0) * price
             if not len(begin):
@@ -174,23 +178,13 @@ class Events:
             gain = gains(gram, cross, right, inverse, begin, last, self._own[key]) - choices
             best = int(gain.argmax())
             ends = law.ends if last[best] == PIECES or not law.until else (*law.ends, law.until)
-            where = dict(zip(ends, (at(begin[best]), at(last[best])), strict=False))
+            where = dict(zip(ends, (float(at[begin[best]]), float(at[last[best]])), strict=False))
             out.append((key, where, float(gain[best] - 2.0)))
         return out
 
-    @staticmethod
-    def _spells(first: np.ndarray, share: np.ndarray, law: Law) -> tuple[np.ndarray, np.ndarray]:
-        """First and last piece of what begins and stays, or, where the law may end again, lasts for a while.
-
-        Args:
-            first: pieces at which it may begin or end; share: (pieces + 1,) of the log's motion before each.
-        """
-        ends = [*(first.tolist() if law.until else []), PIECES]
-        pairs = [(x, y) for x in first.tolist() for y in ends if y > x and share[y] - share[x] >= EDGE]
-        begin, last = np.array(pairs, int).reshape(-1, 2).T
-        return begin, last
-
-    def _apart(self, selection: Selection, law: Law, since: float, until: float) -> bool:
+    def _apart(
+        self, selection: Selection, law: Law, since: np.ndarray | float, until: np.ndarray | float
+    ) -> np.ndarray:
         """False near an event of this kind in a selection: what else pushes then is its shape, and none of its own.
 
         Of changes of load those with both times alike; they may follow each other, and stand in each other.
@@ -200,9 +194,13 @@ class Events:
         labels = [self.evidence.groups[g].label for g in selection]
         there = [c.place.where for c in labels if isinstance(c, Candidate) and c.law is law]
         times = [(where["from_s"], where.get("to_s", end)) for where in there]
-        if len(law.ends) == 1:
-            return all(abs(since - a) >= near or abs(until - b) >= near for a, b in times)
-        return all(until + near <= a or since - near >= b for a, b in times)
+        out = np.ones(np.shape(since), bool)
+        for a, b in times:
+            if len(law.ends) == 1:
+                out &= (np.abs(since - a) >= near) | (np.abs(until - b) >= near)
+            else:
+                out &= (until + near <= a) | (since - near >= b)
+        return out
 
     @cached_property
     def _moved(self) -> np.ndarray:
@@ -255,7 +253,7 @@ class Events:
             if held:
                 inside = np.flatnonzero((share >= EDGE) & (share <= 1.0 - EDGE))
                 low, high = max(low, int(inside[0])), max(min(high, int(inside[-1])), int(inside[0]))
-            # Sums over the part that every trial has, and row by row over what it may have more.
+            # Sums over the part that every trial has, and every few rows over what it may have more.
             fixed = slice(high, edges[1]) if k == 0 else slice(edges[0], low)
             sums = between(white, parts, residual, len(inverse), fixed)
             single = by_rows(white, parts, residual, len(inverse), slice(low, high), STRIDE)

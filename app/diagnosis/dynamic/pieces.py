@@ -12,7 +12,7 @@ import numpy as np
 
 from app.diagnosis.models.dynamic.design import TorqueDesign
 from app.diagnosis.regression.evidence import Posterior
-from app.diagnosis.thresholds.events import LONGEST
+from app.diagnosis.thresholds.events import EDGE, LONGEST
 
 PIECES = 60  # of the log: edges of events are looked for at their ends first, and moved continuously then
 
@@ -80,3 +80,16 @@ def windows() -> tuple[np.ndarray, np.ndarray]:
     pairs = [(x, y) for x in range(PIECES) for y in range(x + 2, min(PIECES, x + longest) + 1)]
     first, last = np.array(pairs).T
     return first, last
+
+
+def spells(first: np.ndarray, share: np.ndarray, *, over: bool) -> tuple[np.ndarray, np.ndarray]:
+    """First and last piece of what begins and stays, or, where it may be over again, lasts for a while.
+
+    Args:
+        first: pieces at which it may begin or end; share: (pieces + 1,) of the log's motion before each.
+        over: whether it may end before the log does.
+    """
+    ends = [*(first.tolist() if over else []), PIECES]
+    pairs = [(x, y) for x in first.tolist() for y in ends if y > x and share[y] - share[x] >= EDGE]
+    begin, last = np.array(pairs, int).reshape(-1, 2).T
+    return begin, last
