@@ -6,7 +6,7 @@ import pytest
 
 from app.kinematics import load_robot
 from app.proof.generator.arm import stance
-from app.proof.generator.dynamics import holding_torques, moving_torques
+from app.proof.generator.dynamics import holding_torques, moved_inertia, moving_torques
 from app.proof.generator.urdf import read_arm
 from tests.proof.arms import TOPOLOGIES, random_arm
 
@@ -52,6 +52,21 @@ def test_a_load_weighs_what_pin_says_a_heavier_last_link_weighs(topology, tmp_pa
     for i in range(len(q)):
         assert np.abs(ours[i] - pin.rnea(loaded, data, q[i], qd[i], qdd[i])).max() < SAME_TORQUE
         assert np.abs(still[i] - pin.computeGeneralizedGravity(loaded, data, q[i])).max() < SAME_TORQUE
+
+
+@pytest.mark.parametrize("topology", TOPOLOGIES)
+def test_what_a_joint_moves_is_the_torque_of_an_acceleration_of_one_from_rest(topology, tmp_path):
+    arm, _ = random_arm(topology, tmp_path, seed=5)
+    q = np.random.default_rng(6).uniform(-1.5, 1.5, (20, arm.n))
+    for j in range(arm.n):
+        push = np.zeros_like(q)
+        push[:, j] = 1.0
+        torque = moving_torques(arm, q, np.zeros_like(q), push, gravity=np.zeros(3))
+        assert np.array_equal(moved_inertia(arm, stance(arm, q), j), torque[:, j])
+        asked = moving_torques(arm, q, push, push, since=j)
+        assert (
+            np.array_equal(asked[:, j:], moving_torques(arm, q, push, push)[:, j:]) and not asked[:, :j].any()
+        )
 
 
 def test_a_description_without_a_chain_is_refused_in_one_line(tmp_path):

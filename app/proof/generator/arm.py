@@ -7,7 +7,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from app.proof.generator.rotations import cross, turn, turn_vector
+from app.proof.generator.rotations import cross, times, turn, turn_vector
 
 PARALLEL = 1e-6  # sine of the angle below which two axes count as parallel
 
@@ -87,7 +87,7 @@ def stance(
         if turns is not None and np.any(turns[..., k, :]):
             inner = turn_vector(turns[..., k, :]) @ inner
         place = place + np.einsum("mij,mj->mi", rotation, np.broadcast_to(offset, (m, 3)))
-        rotation = rotation @ inner
+        rotation = times(rotation, inner)
         if k == n:
             break
         axes[:, k] = rotation @ arm.axes[k]

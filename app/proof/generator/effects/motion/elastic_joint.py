@@ -16,7 +16,8 @@ from functools import lru_cache
 import numpy as np
 
 from app.errors import InputError
-from app.proof.generator.dynamics import moving_torques
+from app.proof.generator.arm import stance
+from app.proof.generator.dynamics import moved_inertia, moving_torques
 from app.proof.generator.effects.motion._joint import JointTorque
 from app.proof.generator.effects.term import Size
 
@@ -72,9 +73,7 @@ class ElasticJoint(JointTorque):
 
 def own_inertia(arm, q: np.ndarray, j: int) -> np.ndarray:
     """(m,) inertia of all that joint j (from 0) moves, the others held [kg m^2]."""
-    still, push = np.zeros_like(q), np.zeros_like(q)
-    push[:, j] = 1.0
-    return moving_torques(arm, q, still, push, gravity=np.zeros(3))[:, j]
+    return moved_inertia(arm, stance(arm, q), j)
 
 
 @lru_cache(maxsize=32)
@@ -84,19 +83,23 @@ def swinging(cell, j: int, stiffness: float, damping: float) -> tuple[np.ndarray
     period = 2.0 * np.pi * np.sqrt(float(inertia.min()) / stiffness)
     count = int(np.ceil((cell.t[-1] - cell.t[0] + BEFORE) * A_PERIOD / period)) | 1  # odd: pairs of steps
     t = np.linspace(cell.t[0] - BEFORE, cell.t[-1], max(count, 5))
-    q, qd, qdd = cell.path(t)
-    twist, rate, push = np.zeros((3, len(t)))
-    for _ in range(PASSES):
+    arm, (q, qd, qdd) = cell.arm, cell.path(t)
+    where = stance(arm, q)
+    stiff = moving_torques(arm, q, qd, qdd, where=where)
+    rigid = stiff[:, j]
+    twist, rate, push = _integrated(t, rigid, moved_inertia(arm, where, j), stiffness, damping)
+    for _ in range(PASSES - 1):
         if not np.abs(twist).max() < FARTHEST:
-            return np.zeros((cell.m, cell.arm.n)), np.inf
-        there = [v.copy() for v in (q, qd, qdd)]
-        there[0][:, j] -= twist
-        there[1][:, j] -= rate
-        rigid = moving_torques(cell.arm, *there)[:, j]
-        twist, rate, push = _integrated(t, rigid, own_inertia(cell.arm, there[0], j), stiffness, damping)
+            return np.zeros((cell.m, arm.n)), np.inf
+        there, speed = q.copy(), qd.copy()
+        there[:, j] -= twist
+        speed[:, j] -= rate
+        where = stance(arm, there)
+        rigid = moving_torques(arm, there, speed, qdd, where=where, since=j)[:, j]
+        twist, rate, push = _integrated(t, rigid, moved_inertia(arm, where, j), stiffness, damping)
     for value, twisted in zip((q, qd, qdd), (twist, rate, push), strict=True):
         value[:, j] -= twisted
-    swung = moving_torques(cell.arm, q, qd, qdd) - moving_torques(cell.arm, *cell.path(t))
+    swung = moving_torques(arm, q, qd, qdd) - stiff
     added = np.stack([np.interp(cell.t, t, column) for column in swung.T], axis=1)
     return added, float(np.abs(twist).max())
 
@@ -106,22 +109,20 @@ def _integrated(
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Twist, its rate and acceleration (m,), from rest: inertia x'' + damping x' + stiffness x = rigid."""
     step = 2.0 * (t[1] - t[0])
+    half, sixth = 0.5 * step, step / 6.0
     x, v = float(rigid[0]) / stiffness, 0.0
     load, mass = rigid.tolist(), inertia.tolist()
     xs, vs = [x], [v]
-    for k in range(0, len(t) - 2, 2):
-
-        def push(x: float, v: float, at: int) -> float:
-            return (load[at] - damping * v - stiffness * x) / mass[at]
-
-        a = push(x, v, k)
-        v1, a1 = v + 0.5 * step * a, push(x + 0.5 * step * v, v + 0.5 * step * a, k + 1)
-        v2, a2 = v + 0.5 * step * a1, push(x + 0.5 * step * v1, v + 0.5 * step * a1, k + 1)
-        v3, a3 = v + step * a2, push(x + step * v2, v + step * a2, k + 2)
-        x, v = (
-            x + step / 6.0 * (v + 2.0 * v1 + 2.0 * v2 + v3),
-            v + step / 6.0 * (a + 2.0 * a1 + 2.0 * a2 + a3),
-        )
+    for k in range(0, len(t) - 2, 2):  # written out: a function for the acceleration takes as long again
+        a = (load[k] - damping * v - stiffness * x) / mass[k]
+        v1 = v + half * a
+        a1 = (load[k + 1] - damping * v1 - stiffness * (x + half * v)) / mass[k + 1]
+        v2 = v + half * a1
+        a2 = (load[k + 1] - damping * v2 - stiffness * (x + half * v1)) / mass[k + 1]
+        v3 = v + step * a2
+        a3 = (load[k + 2] - damping * v3 - stiffness * (x + step * v2)) / mass[k + 2]
+        x += sixth * (v + 2.0 * v1 + 2.0 * v2 + v3)
+        v += sixth * (a + 2.0 * a1 + 2.0 * a2 + a3)
         xs.append(x)
         vs.append(v)
     return _between(t, np.array(xs), np.array(vs), rigid, inertia, stiffness, damping)
