@@ -181,9 +181,17 @@ def own_header(line: str) -> bool:
     return bool(_OWN.search(line))
 
 
+def has_letters(line: str, letters: str) -> bool:
+    """True where all these (small) letters are in a line, small or large: most are numbers, and name no column."""
+    small = line.lower()
+    return all(letter in small for letter in letters)
+
+
 def header_line(lines: Sequence[str], name_columns: frozenset[str]) -> tuple[int, str | None] | None:
     """Index and delimiter of the first line that names a point column and at least X and Y."""
     for k, line in enumerate(lines[:100]):
+        if not has_letters(line, "xy"):
+            continue
         for sign in ("\t", ";", ",", None):
             names = {bare(cell) for cell in split(line, sign)}
             if {"x", "y"} <= names and names & name_columns:

@@ -12,6 +12,7 @@ from app.recordings.options import ReadOptions
 from app.recordings.point_lists import (
     as_asked,
     bare,
+    has_letters,
     number,
     own_header,
     point_table,
@@ -72,6 +73,8 @@ class PlainPoints:
 def _header(lines: list[str]) -> tuple[int, str | None] | None:
     """Index and delimiter of the first line that names X, Y and Z."""
     for k, line in enumerate(lines[:_LOOKED_AT]):
+        if not has_letters(line, "xyz"):
+            continue
         for sign in _SIGNS:
             cells = split(line, sign)
             if {"x", "y", "z"} <= {bare(cell) for cell in cells} and len(cells) < 1000:
