@@ -26,6 +26,7 @@ Say = Callable[[float, str], None]
 
 _FORKED = "forkserver" in multiprocessing.get_all_start_methods()
 _CONTEXT: Any = multiprocessing.get_context("forkserver" if _FORKED else "spawn")
+_PREPARED: dict[str, None] = {}  # a process has one small server, whoever asks for it
 _LOOK = 0.05  # seconds between two looks at whether the job was given up
 _ENDING = 10.0  # seconds by the clock in which a process that closed its pipe has said how it ended
 _GIB = 1 << 30
@@ -79,9 +80,10 @@ SEARCH = Bounds(seconds=3600, patience=4 * 3600.0, memory=3 * _GIB, seats=2)
 
 
 def prepare(modules: Sequence[str]) -> None:
-    """Modules that the small server reads before the first job; has to be said before it."""
+    """Modules that the small server reads before the first job, besides those it was told of; to be said before it."""
     if _FORKED:
-        _CONTEXT.set_forkserver_preload(list(modules))
+        _PREPARED.update(dict.fromkeys(modules))
+        _CONTEXT.set_forkserver_preload(list(_PREPARED))
 
 
 def apart(

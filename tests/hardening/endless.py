@@ -25,23 +25,23 @@ def endless(kind: str, what: str, size: int) -> bytes:
     """About `size` bytes of a file."""
     head, row, _ = HEADS[kind]
     commas = b"," * row.count(b",")
-    pieces = {
-        "one cell": b'"' + b"a" * size + b'"',
-        "a cell that is not closed": b'"' + b"a\n" * (size // 2),
-        "line ends": b"\n" * size,
-        "returns": b"\r" * size,
-        "commas": b"," * size,
-        "rows of commas": (commas + b"\n") * (size // (len(commas) + 1)),
-        "rows of empty quotes": (b'""' + commas + b"\n") * (size // (len(commas) + 3)),
-        "blank lines": b" \n" * (size // 2),
-        "remarks": b"#\n" * (size // 2),
-        "quotes": b'"' * size,
-        "blanks": b" " * size,
-        "digits": b"1" * size,
-        "zeros": b"\0" * size,
-        "words": b"a\n" * (size // 2),
-    }
-    return head + row + pieces[what] + b"\n" + row
+    first, again, last = {
+        "one cell": (b'"', b"a", b'"'),
+        "a cell that is not closed": (b'"', b"a\n", b""),
+        "line ends": (b"", b"\n", b""),
+        "returns": (b"", b"\r", b""),
+        "commas": (b"", b",", b""),
+        "rows of commas": (b"", commas + b"\n", b""),
+        "rows of empty quotes": (b"", b'""' + commas + b"\n", b""),
+        "blank lines": (b"", b" \n", b""),
+        "remarks": (b"", b"#\n", b""),
+        "quotes": (b"", b'"', b""),
+        "blanks": (b"", b" ", b""),
+        "digits": (b"", b"1", b""),
+        "zeros": (b"", b"\0", b""),
+        "words": (b"", b"a\n", b""),
+    }[what]
+    return head + row + first + again * (size // len(again)) + last + b"\n" + row
 
 
 KINDS_OF_END = (

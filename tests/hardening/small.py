@@ -13,6 +13,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from app.apart import prepare
+
 #: Processor time of a command on a small hostile file [s]; the clock says how busy a machine is.
 MOST_SECONDS = 5.0
 #: Memory of it [MB].
@@ -20,11 +22,11 @@ MOST_MEMORY = 1000.0
 _GIVEN_UP_S = 180.0
 _MOST_CPU_S = 40
 _CONTEXT: Any = multiprocessing.get_context("forkserver")
-_CONTEXT.set_forkserver_preload(
+prepare(
     [
         "app.cli", "app.calibration.solving", "app.calibration.base.run", "app.calibration.exchange",
         "app.diagnosis.kinematic.diagnose", "app.diagnosis.dynamic.diagnose", "app.diagnosis.export",
-        "app.session.store", "app.recordings.arm", "app.proof.generator.simulate",
+        "app.session.store", "app.recordings.arm", "app.proof.generator.simulate", "app.kinematics.loading",
     ]
 )  # fmt: skip
 
