@@ -5,6 +5,8 @@ BIN    := $(VENV)/bin
 # One thread a process: the arrays are small, and threads that wait for each other are slower.
 export OMP_NUM_THREADS := 1
 export OPENBLAS_NUM_THREADS := 1
+# Who forbids it for other programs still has his tests compiled once, not by each of the tests' processes.
+export PYTHONDONTWRITEBYTECODE :=
 
 .PHONY: run test check audit format bench golden wheel fuzz clean
 
@@ -13,7 +15,7 @@ run: $(VENV)/.installed
 
 test: $(VENV)/.installed-dev browser
 	$(BIN)/python -m pytest -n 3 --dist loadgroup -m "not browser"
-	$(BIN)/python -m pytest -n 2 --dist loadgroup -m browser
+	$(BIN)/python -m pytest -n 2 --dist loadgroup -m browser tests/browser
 
 check: $(VENV)/.installed-dev
 	$(BIN)/ruff format --check .

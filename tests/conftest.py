@@ -1,6 +1,7 @@
 """What holds for every test."""
 
 import gc
+from pathlib import Path
 
 import pytest
 from argon2 import PasswordHasher
@@ -8,16 +9,24 @@ from argon2 import PasswordHasher
 from app.people import secret
 from tests.session.postgresql import any_postgresql
 
+BROWSER = Path(__file__).parent / "browser"
 #: As people's are made: what is tried there is told apart from everywhere else.
 AT_FULL_COST, NOBODY_AT_FULL_COST = secret._HASHER, secret._NOBODY
 
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items):
-    """Where several processes share the tests, those of a file stay together: so does what they set up."""
+    """Where several processes share the tests, those of a file stay together: so does what they set up.
+
+    Tests that drive a browser are where `make test` looks for them: what a run does not import costs it nothing.
+    """
     for item in items:
         if item.get_closest_marker("xdist_group") is None:
             item.add_marker(pytest.mark.xdist_group(item.location[0]))
+        if item.get_closest_marker("browser") is not None and BROWSER not in item.path.parents:
+            raise pytest.UsageError(
+                f"{item.nodeid}: `make test` looks for browser tests in tests/browser only"
+            )
 
 
 def pytest_collection_finish():

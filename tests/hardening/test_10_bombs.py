@@ -13,6 +13,12 @@ import pytest
 
 from tests.hardening.small import MOST_MEMORY, MOST_SECONDS, ran, refused
 
+
+def made(content):
+    """What is large is made by the test that needs it, not by every process that collects the tests."""
+    return content() if callable(content) else content
+
+
 POINTS = "# kind: points\n# angles: ZYX\n{}\nrole,x_mm,y_mm,z_mm,a_deg,b_deg,c_deg\ntouch,1,2,3,4,5,6\n"
 ALIASES = "&a [1,1,1,1,1,1,1,1,1]"
 HEADERS = {
@@ -43,8 +49,8 @@ MODELS = {
     "nested 200,000 deep": "[" * 200_000,
     "tables in tables": '{"a":' * 200_000,
     "5,000 effects": json.dumps({**MODEL, "effects": [EFFECT] * 5000}),
-    "ten million numbers": "[" + "1," * 10_000_000 + "1]",
-    "one text": '"' + "a" * 20_000_000 + '"',
+    "ten million numbers": lambda: "[" + "1," * 10_000_000 + "1]",
+    "one text": lambda: '"' + "a" * 20_000_000 + '"',
     "one number": "1" * 1_000_000,
     "5,000 parameters": json.dumps(
         {**MODEL, "effects": [{**EFFECT, "parameters": {f"p{k}": 1.0 for k in range(5000)}}]}
@@ -54,7 +60,7 @@ MODELS = {
 
 @pytest.mark.parametrize("name", MODELS)
 def test_a_model(name, tmp_path):
-    (tmp_path / "m.json").write_text(MODELS[name])
+    (tmp_path / "m.json").write_text(made(MODELS[name]))
     assert "m.json" in refused("export-model", "m.json", "o.xml", "--to", "mjcf", folder=tmp_path)
 
 
@@ -71,7 +77,7 @@ JOURNALS = {
     "a billion touches": journal({"do": "choose_mode", "mode": "touch", "touches": 10**9}),
     "a step of brackets": journal({"do": "record", "step": "[" * 100_000, "q": [0.0] * 6}),
     "joints without end": journal({"do": "record", "step": "touch1", "q": [0.0] * 100_000}),
-    "lines and nothing else": "\n" * 40_000_000,
+    "lines and nothing else": lambda: "\n" * 40_000_000,
     "nested": json.dumps(HEAD)[:-1] + ', "x": ' + "[" * 100_000 + "\n",
     "zeros": "\0" * 1_000_000,
 }
@@ -79,7 +85,7 @@ JOURNALS = {
 
 @pytest.mark.parametrize("name", JOURNALS)
 def test_a_session(name, tmp_path):
-    (tmp_path / "s.jsonl").write_text(JOURNALS[name])
+    (tmp_path / "s.jsonl").write_text(made(JOURNALS[name]))
     assert "s.jsonl" in refused("replay", "s.jsonl", folder=tmp_path)
 
 
@@ -100,8 +106,8 @@ def packed(**members):
 
 XACRO = '<robot xmlns:xacro="http://www.ros.org/wiki/xacro" name="a">{}</robot>'
 ROBOTS = {
-    "bomb.zip": packed(a__urdf="<robot/>", b__stl=b"\0" * 400_000_000),
-    "many.zip": packed(**{f"f{k}": "" for k in range(20_000)}),
+    "bomb.zip": lambda: packed(a__urdf="<robot/>", b__stl=b"\0" * 400_000_000),
+    "many.zip": lambda: packed(**{f"f{k}": "" for k in range(20_000)}),
     "itself.xacro": XACRO.format('<xacro:include filename="itself.xacro"/>'),
     "macro.xacro": XACRO.format('<xacro:macro name="m"><xacro:m/></xacro:macro><xacro:m/>'),
     "power.xacro": XACRO.format('<xacro:property name="p" value="${9**9**9}"/>${p}'),
@@ -112,18 +118,22 @@ ROBOTS = {
         + '<link name="${p39}"/>'
     ),
     "list.xacro": XACRO.format("${[1]*10**10}"),
-    "chain.urdf": "<robot name='a'><link name='l0'/>"
-    + "".join(
-        f"<link name='l{k}'/><joint name='j{k}' type='fixed'><parent link='l{k - 1}'/><child link='l{k}'/></joint>"
-        for k in range(1, 2001)
-    )
-    + "</robot>",
-    "star.urdf": "<robot name='a'><link name='b'/>"
-    + "".join(
-        f"<link name='l{k}'/><joint name='j{k}' type='fixed'><parent link='b'/><child link='l{k}'/></joint>"
-        for k in range(60_000)
-    )
-    + "</robot>",
+    "chain.urdf": lambda: (
+        "<robot name='a'><link name='l0'/>"
+        + "".join(
+            f"<link name='l{k}'/><joint name='j{k}' type='fixed'><parent link='l{k - 1}'/><child link='l{k}'/></joint>"
+            for k in range(1, 2001)
+        )
+        + "</robot>"
+    ),
+    "star.urdf": lambda: (
+        "<robot name='a'><link name='b'/>"
+        + "".join(
+            f"<link name='l{k}'/><joint name='j{k}' type='fixed'><parent link='b'/><child link='l{k}'/></joint>"
+            for k in range(60_000)
+        )
+        + "</robot>"
+    ),
     "entities.urdf": "<!DOCTYPE r [<!ENTITY a 'bbbbbbbbbb'><!ENTITY c '&a;&a;&a;&a;'>]><robot>&c;</robot>",
     "rows.csv": "a_mm,alpha_deg,d_mm,theta_deg\n" + "1,2,3,4\n" * 100_000,
 }
@@ -131,7 +141,7 @@ ROBOTS = {
 
 @pytest.mark.parametrize("name", ROBOTS)
 def test_a_robot(name, tmp_path):
-    content = ROBOTS[name]
+    content = made(ROBOTS[name])
     (tmp_path / name).write_bytes(content if isinstance(content, bytes) else content.encode())
     assert name in refused("simulate", "--robot", name, "--kind", "touch", "o.csv", folder=tmp_path)
 
