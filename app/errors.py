@@ -195,5 +195,5 @@ class PersonRefusedError(TeachframeError):
 
 def one_line(text: str, limit: int = 600) -> str:
     """Folds control characters and length away: an error is one line, whatever was in the file."""
-    clean = "".join(c if c.isprintable() else " " for c in text)
+    clean = text if text.isprintable() else "".join(c if c.isprintable() else " " for c in text)
     return clean if len(clean) <= limit else clean[: limit - 1] + "…"

@@ -22,7 +22,10 @@ def folder():
         yield Path(name)
 
 
-@pytest.mark.parametrize("seed", [20240, 20241])  # two halves, for two cores
+# Two halves, for two cores: not on one as other tests of a file.
+@pytest.mark.parametrize(
+    "seed", [pytest.param(seed, marks=pytest.mark.xdist_group(f"fuzz {seed}")) for seed in (20240, 20241)]
+)
 def test_no_made_up_file_ends_in_a_fault_a_hang_or_nan(seed, folder):
     counts, complaints = fuzz(INPUTS // 2, seed, folder)
     assert not complaints, "\n".join(complaints)
