@@ -14,8 +14,13 @@ BROWSER = Path(__file__).parent / "browser"
 AT_FULL_COST, NOBODY_AT_FULL_COST = secret._HASHER, secret._NOBODY
 
 
+def shared_out(config):
+    """True in one of several processes that share the tests by group."""
+    return getattr(config.option, "loadgroup", False)
+
+
 @pytest.hookimpl(tryfirst=True)
-def pytest_collection_modifyitems(items):
+def pytest_collection_modifyitems(config, items):
     """Where several processes share the tests, those of a file stay together: so does what they set up.
 
     Tests that drive a browser are where `make test` looks for them: what a run does not import costs it nothing.
@@ -27,10 +32,27 @@ def pytest_collection_modifyitems(items):
             raise pytest.UsageError(
                 f"{item.nodeid}: `make test` looks for browser tests in tests/browser only"
             )
+        if shared_out(config):
+            _tells_its_group(item)
 
 
-def pytest_collection_finish():
+def _tells_its_group(item):
+    """The group behind the test's id, by which pytest-xdist shares the tests out.
+
+    pytest-xdist 3.8 writes it where pytest before 9.2 kept the id; with a later pytest it is lost without a word, and
+    every process sets up what the tests of a file share.
+    """
+    group = item.get_closest_marker("xdist_group").args[0]
+    if hasattr(item, "_id"):
+        item._id = type(item._id).parse(f"{item.nodeid}@{group}")
+
+
+def pytest_collection_finish(session):
     """What all tests have loaded is not looked through again whenever garbage is collected."""
+    if shared_out(session.config) and not all(
+        "@" in item.nodeid.rpartition("]")[2] for item in session.items
+    ):
+        raise pytest.UsageError("pytest no longer tells pytest-xdist which tests are to stay together")
     gc.collect()
     gc.freeze()
 
