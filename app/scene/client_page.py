@@ -17,15 +17,18 @@ _STYLE = (
 _SCRIPT = """
 Document.prototype.hasFocus = () => true;
 if (new URLSearchParams(location.search).has("fixedDpr")) {
-  const PAUSE = 80, next = window.requestAnimationFrame.bind(window);
-  let free = 0;
-  const run = (draw) => (now) => { draw(now); free = performance.now() + PAUSE; };
+  // Numbers of its own: a timer's may be that of a frame, and to give up the one would give up the other for good.
+  const PAUSE = 80, next = window.requestAnimationFrame.bind(window), stop = window.cancelAnimationFrame.bind(window);
+  const waiting = new Map();
+  let free = 0, last = 1e9;
   window.requestAnimationFrame = (draw) => {
-    const wait = free - performance.now();
-    return wait > 4 ? setTimeout(() => next(run(draw)), wait) : next(run(draw));
+    const number = ++last, wait = free - performance.now();
+    const run = (now) => { waiting.delete(number); draw(now); free = performance.now() + PAUSE; };
+    const ask = () => { const frame = next(run); waiting.set(number, () => stop(frame)); };
+    if (wait > 4) { const timer = setTimeout(ask, wait); waiting.set(number, () => clearTimeout(timer)); } else ask();
+    return number;
   };
-  const stop = window.cancelAnimationFrame.bind(window);
-  window.cancelAnimationFrame = (number) => { clearTimeout(number); stop(number); };
+  window.cancelAnimationFrame = (number) => { waiting.get(number)?.(); waiting.delete(number); };
 }
 """
 

@@ -219,3 +219,24 @@ def test_dark_and_light_are_remembered_by_the_browser(sit_down):
     person.page.locator("html[data-theme=dark]").wait_for()
     again = sit_down(robot=None, context=person.page.context)
     again.page.locator("html[data-theme=dark]").wait_for()
+
+
+#: A timer of the page is what it is, whatever frames are given up; of frames only the one that was given up stays out.
+_GIVEN_UP = """async () => {
+    const inner = document.getElementById('scene').contentWindow, came = [];
+    const rests = new Promise((done) => { const timer = inner.setTimeout(done, 50, true); inner.cancelAnimationFrame(timer); });
+    const frames = Array.from({ length: 20 }, (_, n) => inner.requestAnimationFrame(() => came.push(n)));
+    frames.filter((_, n) => n % 2).forEach((frame) => inner.cancelAnimationFrame(frame));
+    const soon = new Promise((done) => setTimeout(done, 20000, false));
+    const timed = await Promise.race([rests, soon]);
+    while (came.length < 10) await new Promise((done) => setTimeout(done, 20));
+    return [timed, came];
+}"""
+
+
+def test_the_scene_goes_on_drawing_whatever_is_given_up(sit_down):
+    """The numbers of timers and frames were mixed up: after a change of the window's size the scene stayed white."""
+    person = sit_down()
+    person.scene_is_there()
+    timed, came = person.page.evaluate(_GIVEN_UP)
+    assert timed and came == list(range(0, 20, 2))
