@@ -91,7 +91,9 @@ class RobotModel:
 
     @property
     def title(self) -> str:
-        return self.description.get("title", self.name)
+        """The description's, else what the file calls its robot: `robot.urdf` says nothing of which one it is."""
+        own = self.source.get("name", "") if self.source is not None else ""
+        return self.description.get("title") or own or self.name
 
     def said(self, key: str, language: str) -> str:
         """What the description says under a key, `title` or `maker`, in a language: its table `words.LANGUAGE` first.

@@ -71,3 +71,28 @@ def look(eyes: Eyes, view: View) -> None:
     eye, centre = view
     eye = centre + max(1.0, _NARROW / eyes.aspect) * (eye - centre)
     eyes.look(eye, centre, _FIELD)
+
+
+def look_at_all(eyes: Eyes, points: np.ndarray, towards_eye: np.ndarray) -> None:
+    """Puts the eye where all points are seen, however wide the window is."""
+    eyes.look(*framed(points, towards_eye, eyes.aspect), _FIELD)
+
+
+def framed(points: np.ndarray, towards_eye: np.ndarray, aspect: float, fill: float = 0.8) -> View:
+    """The nearest eye in a direction from which all points are seen in a window of this shape.
+
+    Args:
+        points: (n, 3) [m].
+        towards_eye: (3,) from what is seen to the eye, not straight up.
+        aspect: width over height of the window.
+        fill: the share of the window they may take; what is left is for labels.
+    """
+    back = towards_eye / np.linalg.norm(towards_eye)
+    right = np.cross([0.0, 0.0, 1.0], back)
+    right /= np.linalg.norm(right)
+    centre = (points.min(0) + points.max(0)) / 2.0
+    rel = points - centre
+    half = fill * np.tan(_FIELD / 2.0)  # of the window's height, at a distance of one
+    sides = np.abs(rel @ right) / (half * aspect)
+    heights = np.abs(rel @ np.cross(back, right)) / half
+    return centre + float(np.max(rel @ back + np.maximum(sides, heights))) * back, centre

@@ -50,6 +50,7 @@ class _View:
             self._pushed = ui.add_check(t("base.pushed"), False, hint=t("base.pushed_hint"))
             context.clicked(ui.add_button(t("base.open")), self._open)
         self._work = ui.add_folder(t("base.procedure"), visible=False)
+        self._place = self._work.order
         with self._work:
             self._plan = ui.add_html("")
             self._next = ui.add_html("")
@@ -166,8 +167,10 @@ class _View:
         self._stop.visible = False
         if run.wizard.done and run.relation is None:
             relation = run.solve()
-            severe = relation is None or any(w.severe for w in relation.warnings)
-            self._context.say("warning" if severe else "good", self._context.t("base.solved"))
+            found = relation is not None and relation.T_base1_base2 is not None
+            doubtful = relation is None or any(w.severe for w in relation.warnings)
+            words = "base.light_none" if not found else "base.doubtful" if doubtful else "base.solved"
+            self._context.say("warning" if doubtful else "good", self._context.t(words))
         self._show()
 
     def _turn(self, degrees: float) -> None:
@@ -244,6 +247,8 @@ class _View:
             self._angle.max = float(np.floor(deg(min(arm.robot.upper[step.axis - 1], np.pi))))
         self._result.content = cards.result(self._context, run)
         self._result.visible = self._give.visible = run.relation is not None
+        # What was found comes first; the procedure that led there stands below it.
+        self._work.order = self._place if run.relation is None else self._close_button.order - 0.5
         self._send.visible = run.relation is not None and run.relation.T_base1_base2 is not None
 
     def numbers(self) -> None:

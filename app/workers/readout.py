@@ -126,7 +126,10 @@ def read(context: Context, hints: Hinted) -> Read:
         of=t("move.position" if tool is not None else "move.flange"),
         touch=touch,
         touching=touching,
-        points=t("status.points", done=len(state.steps) - len(state.missing), all=len(state.steps)),
+        # The wizard's, which is for the own arm.
+        points=t("status.points", done=len(state.steps) - len(state.missing), all=len(state.steps))
+        if own
+        else "",
         level=log[0][1],
         message=log[0][2],
         said=len(context.log) and hash(log[0]) & 0x7FFFFFFF,

@@ -224,7 +224,7 @@ def test_dark_and_light_are_remembered_by_the_browser(sit_down):
 #: A timer of the page is what it is, whatever frames are given up; of frames only the one that was given up stays out.
 _GIVEN_UP = """async () => {
     const inner = document.getElementById('scene').contentWindow, came = [];
-    const rests = new Promise((done) => { const timer = inner.setTimeout(done, 50, true); inner.cancelAnimationFrame(timer); });
+    const rests = new Promise((done) => inner.cancelAnimationFrame(inner.setTimeout(done, 50, true)));
     const frames = Array.from({ length: 20 }, (_, n) => inner.requestAnimationFrame(() => came.push(n)));
     frames.filter((_, n) => n % 2).forEach((frame) => inner.cancelAnimationFrame(frame));
     const soon = new Promise((done) => setTimeout(done, 20000, false));

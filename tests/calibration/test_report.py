@@ -34,6 +34,12 @@ def test_the_sheet_holds_picture_points_residuals_uncertainty_conditions_and_sig
     assert sheet.count("<svg") == 4
 
 
+def test_a_rotation_vector_is_in_radians_as_universal_robots_shows_it(sheet):
+    row = re.search(r"rotvec \(Universal Robots\)(.*?)</tr>", sheet, re.DOTALL)
+    assert row is not None and " rad" in row.group(1) and "°" not in row.group(1)
+    assert max(abs(float(v)) for v in re.findall(r"-?\d+\.\d+", row.group(1))) <= 3.1416
+
+
 def test_the_sheet_needs_nothing_from_outside(sheet):
     assert "<script" not in sheet and "http" not in sheet and "src=" not in sheet
 

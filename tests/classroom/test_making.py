@@ -44,7 +44,7 @@ def test_a_bent_tip_is_bent_by_what_was_asked_for():
         ({"title_en": ""}, "Title: nothing is written there."),
         (
             {"tool_spread_mm": "wide"},
-            "Tool point beside the drawn one, up to: wide is not a number from 0 to 60.",
+            "Tool point off the drawn one by up to: wide is not a number from 0 to 60.",
         ),
         ({"tool_spread_mm": "nan"}, "not a number from 0 to 60"),
         ({"touches": "4.5"}, "Touches: 4.5 is not a whole number"),

@@ -84,6 +84,12 @@ def test_a_limit_that_is_no_number_is_named(tmp_path):
         load_text(tmp_path, arm(1).replace('upper="1"', 'upper="far"'))
 
 
+def test_an_arm_of_ones_own_is_called_what_its_file_calls_it(tmp_path):
+    robot = load_text(tmp_path, arm(2))
+    assert (robot.name, robot.title) == ("arm", "r")
+    assert load_text(tmp_path, arm(2).replace(' name="r"', "")).title == "arm"
+
+
 def test_meshes_need_not_exist(tmp_path):
     text = arm(1).replace(
         '<link name="l0"/>',

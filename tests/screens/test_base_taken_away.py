@@ -60,7 +60,7 @@ def test_the_relation_is_exported_and_printed_in_both_languages_without_the_trut
         until(lambda: view.run.relation is not None, "the relation")
     desk.rests()
     found = view.run.relation.T_base1_base2
-    desk.press("Take away", "Export the relation")
+    desk.press("Download", "Export the relation")
     told = json.loads(sent(desk)["two_robots.json"])
     assert np.allclose(np.array(told["T_base1_base2"])[:3, 3], mm(found.position), atol=1e-6)
     assert told["format"] == "teachframe.base/1"
@@ -68,7 +68,7 @@ def test_the_relation_is_exported_and_printed_in_both_languages_without_the_trut
     for language, word in (("en", "95%"), ("zh", "95%")):
         desk.live.choose("language", language)
         desk.idle()
-        label = {"en": ("Take away", "Report to print"), "zh": ("取走", "打印报告")}[language]
+        label = {"en": ("Download", "Report to print"), "zh": ("下载", "打印报告")}[language]
         desk.press(*label)
         page = sent(desk)["two_robots.html"].decode()
         assert f'lang="{language}"' in page and word in page

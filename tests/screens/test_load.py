@@ -34,7 +34,7 @@ def test_four_poses_and_a_run_give_the_load(sit_at, brisk):
     assert view.found.mass_half < 2.0 * MASS * true.mass  # a light load beside a gain that may be 3% off
     assert f"{view.found.mass:.3f} kg" in plain(view._result.content)
     assert not view._truth.visible  # what hangs there is told when it is asked for
-    desk.press("Show what hangs there")
+    desk.press("Show the true load")
     assert f"{view.true.mass:.3f} kg" in plain(view._truth.content)
     assert 'data-colour="green"' in view._truth.content
 

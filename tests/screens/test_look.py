@@ -15,10 +15,11 @@ from app.workers.axes import pairs, turns
 from tests.chinese import CHINESE
 
 
-def _context(language="zh", vocabulary=""):
+def _context(language="zh", vocabulary="", robot="jby50"):
     return SimpleNamespace(
         language=language,
         vocabulary=vocabulary,
+        model=load_robot(robot),
         t=lambda key, **fields: text(key, language, **fields),
     )
 
@@ -53,6 +54,21 @@ def test_a_button_moves_the_very_angle_it_is_named_after(maker, form):
     for place, (axis, _) in enumerate(turns(maker)):
         angles = convention(form).from_rotation(turn[axis - 3](0.1))
         assert abs(angles[place] - 0.1) < 1e-12
+
+
+@pytest.mark.parametrize(
+    "robot, vocabulary, first",
+    [
+        ("ur10e", "", "ur_script"),
+        ("iiwa14", "", "kuka_krl"),
+        ("r2000ic_165f", "", "fanuc_utool"),
+        ("irb120", "", "abb_rapid"),
+        ("ur10e", "kuka", "kuka_krl"),
+    ],
+)
+def test_the_own_controllers_format_is_offered_first(robot, vocabulary, first):
+    words = Words(_context("en", vocabulary, robot))  # type: ignore[arg-type]
+    assert next(iter(words.formats().values())) == first
 
 
 def test_conventions_formats_and_arms_have_chinese_words_where_they_are_no_names():

@@ -101,7 +101,7 @@ def test_nobody_else_has_it(page, hub, tmp_path):
         label = next(w for w in other.state()["widgets"] if w.get("label") == "Robot")
         assert TITLE not in label["options"]
         said = len(other.live.context.log)
-        widget = upload_of(other, "Take in a file")
+        widget = upload_of(other, "Import a session")
         assert send(other, widget, content=journal, name="s.jsonl").status_code == 204
         until(lambda: len(other.live.context.log) > said, "the refusal")
         level, words = other.live.context.log[-1][1:]
@@ -113,9 +113,9 @@ def test_of_two_arms_the_part_is_asked_for_and_can_be_named(page):
     torso = description([*line(6, base="base"), *line(6, base="base", prefix="b")]).encode()
     level, words = drop(page, torso, "torso.urdf")
     assert level == "warning" and "l6" in words and "bl6" in words
-    part = next(w["id"] for w in page.state()["widgets"] if w.get("label") == "Which part is the arm")
+    part = next(w["id"] for w in page.state()["widgets"] if w.get("label") == "Which links are the arm")
     page.say(t="press", id=part, value="base..bl6")
-    until(lambda: page.live.context.ui.find("Which part is the arm").value == "base..bl6", "the part")
+    until(lambda: page.live.context.ui.find("Which links are the arm").value == "base..bl6", "the part")
     assert drop(page, torso, "torso.urdf")[0] == "good"
     assert page.live.context.model.flange == "bl6"
 

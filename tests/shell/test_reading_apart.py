@@ -82,7 +82,7 @@ def test_points_a_tool_a_model_and_a_session_are_read_apart_too(page, monkeypatc
         return whole(job, *given, **named)
 
     monkeypatch.setattr(taking_in, "apart", noted)
-    for label in ("Load a points file", "Load a tool frame", "Send a model file", "Take in a file"):
+    for label in ("Load a points file", "Load a tool frame", "Send a model file", "Import a session"):
         assert send(page, upload_of(page, label), content=b"{[(nonsense").status_code == 204
     until(lambda: len(asked) == 4, f"all readers; {asked}")
     assert set(asked) == {"load_action", "read_frame", "load_model", "replayable"}

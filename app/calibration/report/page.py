@@ -10,6 +10,7 @@ from app.calibration.quality.region import ellipsoid, half_widths
 from app.calibration.report.cell_picture import cell_picture
 from app.calibration.report.pictures import distance_picture, tilt_picture, tool_picture
 from app.calibration.solving import Solved
+from app.calibration.vocabularies import vocabularies
 from app.calibration.wording import FALLBACK, name_of, phrase
 from app.estimation import HALF
 from app.geometry import CONVENTIONS
@@ -108,9 +109,12 @@ class _Sheet:
         rows = []
         for form in CONVENTIONS.values():
             numbers = form.from_rotation(self._result.T_flange_tool.rotation)
-            shown = deg(numbers) if form.angular else numbers
-            text = "\u2002".join(f"{np.round(v, 4) + 0.0:.{3 if form.angular else 5}f}" for v in shown)
-            rows.append((f"{form.key} ({form.makers[0]})", text + ("°" if form.angular else "")))
+            radians = any(v.convention == form.key and v.angle_unit == "rad" for v in vocabularies().values())
+            in_degrees = form.angular and not radians
+            shown = deg(numbers) if in_degrees else numbers
+            text = "\u2002".join(f"{np.round(v, 5) + 0.0:.{3 if in_degrees else 5}f}" for v in shown)
+            unit = "°" if in_degrees else " rad" if radians else ""
+            rows.append((f"{form.key} ({form.makers[0]})", text + unit))
         return rows
 
     def _cones(self) -> list[str]:

@@ -70,7 +70,7 @@ def result(context: Context, run: Run) -> str:
         out += html.table(rows, head=("mm", t("base.found"), "95%"), testid="base-relation")
     arcs = [
         (
-            f"{k}.{a.arc.axis}",
+            f"R{k} J{a.arc.axis}",
             f"{deg(a.length):.0f}°",
             f"{mm(a.radius):.1f}",
             f"{mm(a.rms):.3f}",

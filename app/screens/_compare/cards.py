@@ -10,13 +10,12 @@ import numpy as np
 
 from app.diagnosis.model import SavedModel
 from app.diagnosis.quantity import quantity
-from app.diagnosis.report.budget import budget, family_name, folded_sentence, percent
+from app.diagnosis.report.budget import budget, family_name, folded_sentence, percent, shown
 from app.diagnosis.report.drawing.palette import colour
 from app.diagnosis.report.wording import (
     effect_title,
     finding_law,
     finding_sentence,
-    joint_values,
     judged_rows,
     measure,
     noise_source,
@@ -58,10 +57,10 @@ def row(context: Context, loaded: Loaded, index: int, share: float) -> str:
         f"{mm(v):.0f} mm" if s else f"{deg(v):.1f}°" for v, s in zip(evidence.q[index], slides, strict=True)
     )
     if loaded.moving:
-        words = context.t("compare.moment", line=line, seconds=f"{loaded.moment(index):.2f}")
+        words = context.t("compare.moment", row=index + 1, line=line, seconds=f"{loaded.moment(index):.2f}")
     else:
         off = float(np.linalg.norm(loaded.vectors(share)[index]))
-        words = context.t("compare.row_off", line=line, mm=f"{mm(off):.3f}")
+        words = context.t("compare.row_off", row=index + 1, line=line, mm=f"{mm(off):.3f}")
         if not evidence.kept[index]:
             words += " " + context.t("compare.set_aside")
     below = "" if loaded.moving else _legend(context)
@@ -149,13 +148,10 @@ def findings(context: Context, diagnosis: Diagnosis) -> str:
     def card(k: int, family: str) -> str:
         return _card(context, k + 1, diagnosis.findings[k], diagnosis.after.unit, colour(family))
 
-    for step in of.steps:
-        if not step.members and not step.small:
-            continue
-        words = (
-            f"{family_name(step.family, language)} · {measure(step.amount, of.unit)} · {percent(step.share)}"
-        )
-        out.append(html.paragraph(words, strong=True))
+    for step in shown(of):
+        back = context.t("compare.comes_back", share=percent(step.share))
+        words = f"{family_name(step.family, language)} · {measure(step.amount, of.unit)}"
+        out.append(html.block(html.safe("<b>{}</b> <small>{}</small>", words, back), look="family"))
         out += [card(k, step.family) for k in step.members]
         if step.small:
             folded = folded_sentence(len(step.small), language)
@@ -171,10 +167,8 @@ def _card(context: Context, number: int, f: Finding, unit: str, edge: str) -> st
     rows += [
         (t("compare.sure"), probability(f.p_value, language)),
         (t("compare.visible"), f"{f.visible:.0%}"),
-        (
-            t("compare.held_out"),
-            f"{measure(f.heldout_rms_without, unit)} → {measure(f.heldout_rms_with, unit)}",
-        ),
+        (t("compare.held_out_without"), measure(f.heldout_rms_without, unit)),
+        (t("compare.held_out_with"), measure(f.heldout_rms_with, unit)),
     ]
     others = ""
     if f.alternatives:
@@ -203,10 +197,11 @@ def next_poses(context: Context, loaded: Loaded) -> str:
     if loaded.diagnosis is None:
         return ""
     slides = [joint.prismatic for joint in loaded.robot.joints]
-    said = html.joined(
-        html.safe("<div>{}</div>", joint_values(q, slides)) for q in loaded.diagnosis.next_poses
-    )
-    return html.block(said, testid="compare-poses")
+    rows = [
+        (str(k), *(f"{mm(v):.0f} mm" if s else f"{deg(v):.0f}°" for v, s in zip(q, slides, strict=True)))
+        for k, q in enumerate(loaded.diagnosis.next_poses, 1)
+    ]
+    return html.table(rows, head=("", *(f"J{j + 1}" for j in range(len(slides)))), testid="compare-poses")
 
 
 def truth(context: Context, hidden: Sequence[dict]) -> str:

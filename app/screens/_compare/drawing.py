@@ -10,6 +10,7 @@ import numpy as np
 from app.kinematics import RobotModel
 from app.scene import Scene
 from app.scene.arm import ArmView
+from app.scene.camera import look_at_all
 from app.scene.eyes import Eyes
 from app.screens._compare.ghost import joints_for_point
 from app.screens._compare.loaded import Loaded
@@ -22,8 +23,7 @@ _GOOD, _BAD = np.array([47, 158, 68]), np.array([224, 49, 49])
 _MOST_ARROWS = 400
 _SHAFT, _HEAD, _HEAD_LENGTH = from_mm(2.0), from_mm(5.5), from_mm(15.0)
 _POSES_SEEN = 300
-_FROM, _FAR = np.array([1.0, -0.8, 0.55]), 2.3  # the eye's direction, and its distance in radii
-_SIDES = 1.5  # an arm is taller than wide: only a window narrower than this needs more distance
+_FROM = np.array([1.0, -0.8, 0.55])  # the eye's direction
 _NOISE_IS_GREEN = 4.0
 _RING, _TUBE = 0.085, 0.013  # of a joint's ring, as shares of the reach
 
@@ -126,7 +126,6 @@ class Drawing:
 
 def look_at(eyes: Eyes, loaded: Loaded) -> None:
     """Turns the browser's eye so that the arm and every recorded point are seen."""
-    reach = float(loaded.robot.description.get("reach_m", loaded.robot.reach))
     q = loaded.evidence.q[np.linspace(0, loaded.count - 1, min(loaded.count, _POSES_SEEN)).astype(int)]
     frames = loaded.robot.chain.frames(q)
     around = np.concatenate(
@@ -135,11 +134,7 @@ def look_at(eyes: Eyes, loaded: Loaded) -> None:
     points = loaded.points
     if points is not None and np.isfinite(points).any():
         around = np.concatenate([around, points[np.isfinite(points).all(1)]])
-    low, high = around.min(0), around.max(0)
-    centre = (low + high) / 2.0
-    far = _FAR * max(float(np.linalg.norm(high - low)) / 2.0, reach / 2.0)
-    far /= min(_SIDES * eyes.aspect, 1.0)  # a narrow window sees less to its sides
-    eyes.look(centre + far * _FROM / np.linalg.norm(_FROM), centre)
+    look_at_all(eyes, around, _FROM)
 
 
 def _pointer(scene: Scene, flange: str, tip: np.ndarray, colour: np.ndarray) -> None:

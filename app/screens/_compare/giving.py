@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from app.diagnosis.model import model_of
@@ -16,7 +17,8 @@ def send_report(context: Context, loaded: Loaded | None) -> None:
     """The page of `teachframe diagnose --report`, with the same content, in the operator's language."""
     if loaded is None or loaded.diagnosis is None:
         return
-    named = f" --robot {loaded.named}" if loaded.named else ""
+    # The file's name alone: where a server keeps what was sent is nothing for a sheet that is handed on.
+    named = f" --robot {Path(loaded.named).name}" if loaded.named else ""
     page = as_page(
         [loaded.diagnosis],
         [loaded.robot],

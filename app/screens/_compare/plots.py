@@ -3,9 +3,17 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from functools import cache
 
-from app.diagnosis.report.budget import budget, budget_sentence, unexplained_sentence
+from app.diagnosis.report.budget import (
+    SMALL_AMOUNT,
+    Budget,
+    Step,
+    budget,
+    budget_sentence,
+    unexplained_sentence,
+)
 from app.diagnosis.report.curves import Curve
 from app.diagnosis.report.drawing.bars import before_after_bars
 from app.diagnosis.report.drawing.budget_bar import budget_bar
@@ -15,15 +23,17 @@ from app.diagnosis.report.events import events_of
 from app.diagnosis.report.picture_words import translated
 from app.diagnosis.report.style import PICTURES
 from app.diagnosis.result import Diagnosis, Evidence
+from app.diagnosis.wording import WORDS
 from app.panel import markup as html
 from app.phrases import FALLBACK
+from app.texts import text
 
 PANEL_WIDTH = 340.0
 
 
 def share_of_families(diagnosis: Diagnosis, language: str = FALLBACK) -> str:
     """The error budget: the sentence, and the bar with its legend; "" where no families were measured."""
-    drawn = budget_bar(budget(diagnosis), language, width=PANEL_WIDTH)
+    drawn = budget_bar(seen(budget(diagnosis), language), language, width=PANEL_WIDTH)
     if not drawn:
         return ""
     sentence = html.paragraph(budget_sentence(diagnosis, language), testid="compare-budget", strong=True)
@@ -31,14 +41,37 @@ def share_of_families(diagnosis: Diagnosis, language: str = FALLBACK) -> str:
     return sentence + _framed(drawn, "compare-budget-bar", language) + (html.paragraph(left) if left else "")
 
 
+def seen(of: Budget, language: str = FALLBACK) -> Budget:
+    """The budget with the families that nobody sees in a bar of this width as one, where there are several."""
+    small = [step for step in of.steps if 0.0 < step.amount < SMALL_AMOUNT * of.total]
+    if len(small) < 2:
+        return of
+    # A family without a word of its own is called by its key.
+    name = text("compare.budget_small", language, count=len(small))
+    amount = sum(step.amount for step in small)
+    steps = [step for step in of.steps if step not in small]
+    return replace(of, steps=(*steps, Step(name, amount, of.rest, 0.0)))
+
+
+def _legend(language: str, *, found: bool) -> str:
+    """What the colours of a picture are."""
+    keys = ("before", "found") if found else ("before",)
+    return html.joined(
+        html.safe('<div class="legend {}">{}</div>', look, WORDS.text(f"page.key.{look}", language))
+        for look in keys
+    )
+
+
 def bars(diagnosis: Diagnosis, language: str = FALLBACK) -> str:
     """Error before and after against the noise."""
-    return _framed(before_after_bars(diagnosis, width=PANEL_WIDTH), "compare-bars", language)
+    drawn = _framed(before_after_bars(diagnosis, width=PANEL_WIDTH), "compare-bars", language)
+    noise = html.paragraph(text("compare.dashed", language), faint=True) if 'class="noise"' in drawn else ""
+    return _legend(language, found=True) + drawn + noise
 
 
-def curve(of: Curve, language: str = FALLBACK) -> str:
-    """Residual against one driver."""
-    return _framed(driver_plot(of), "compare-curve", language)
+def curve(of: Curve, language: str = FALLBACK, *, found: bool = True) -> str:
+    """Residual against one driver; `found` where a search has been made."""
+    return _legend(language, found=found) + _framed(driver_plot(of), "compare-curve", language)
 
 
 def trace(

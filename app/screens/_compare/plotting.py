@@ -81,7 +81,8 @@ class Plotting:
             self._html.content = plots.trace(loaded.evidence, joint, loaded.diagnosis, at, language)
         else:
             curve = self._curves.get(self._what.value)
-            self._html.content = plots.curve(curve, language) if curve is not None else ""
+            found = loaded.diagnosis is not None
+            self._html.content = plots.curve(curve, language, found=found) if curve is not None else ""
 
 
 def _nothing_yet(loaded: Loaded) -> Diagnosis:

@@ -16,7 +16,12 @@ if TYPE_CHECKING:
     from app.screens.context import Context
 
 #: Keys of the simulators' formats, as `teachframe export-model --to` has them.
-TARGETS = ("urdf", "mjcf", "sdf", "usd")
+TARGETS = {
+    "URDF (ROS, PyBullet)": "urdf",
+    "MJCF (MuJoCo)": "mjcf",
+    "SDF (Gazebo)": "sdf",
+    "USD (Isaac Sim)": "usd",
+}
 
 
 class Taking:
@@ -39,30 +44,24 @@ class Taking:
             context.clicked(self._report, lambda: send_report(context, loaded()))
             self._model = ui.add_button(t("compare.model"), rank="plain")
             context.clicked(self._model, lambda: send_model(context, loaded()))
-            self._simulations = [self._simulation(key) for key in TARGETS]
+            self._form = ui.add_choice(t("compare.simulator"), tuple(TARGETS))
+            self._simulation = ui.add_button(
+                t("compare.simulation"), rank="plain", hint=t("compare.simulation_hint")
+            )
+            context.clicked(
+                self._simulation, lambda: send_simulation(context, loaded(), TARGETS[self._form.value])
+            )
             self._cell = ui.add_button(t("compare.to_cell"), rank="plain", hint=t("compare.to_cell_hint"))
             context.clicked(self._cell, self._into_cell)
             self._reveal = ui.add_button(t("compare.reveal"), rank="plain")
             context.clicked(self._reveal, self._show_truth)
             self._truth = ui.add_html("")
 
-    def _simulation(self, key: str):
-        """A button for one simulator's format."""
-        context = self._context
-        button = context.ui.add_button(
-            context.t("compare.simulation", form=key.upper()),
-            rank="plain",
-            hint=context.t("compare.simulation_hint"),
-        )
-        context.clicked(button, lambda: send_simulation(context, self._loaded(), key))
-        return button
-
     def show(self, loaded: Loaded) -> None:
         found = loaded.diagnosis
         model = found is not None and bool(found.model)
         self._report.visible, self._model.visible = found is not None, model
-        for button in self._simulations:
-            button.visible = model
+        self._form.visible = self._simulation.visible = model
         self._cell.visible = model and not loaded.moving and loaded.robot.name in robot_names()
         self._reveal.visible = bool(loaded.truth)
         self._truth.content = ""

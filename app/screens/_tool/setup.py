@@ -59,7 +59,8 @@ class Setup:
         """Shows what is chosen; a result that waits for its decision leaves nothing to choose."""
         mode = mode_named(state.mode)
         title = next(title for title, key in self._modes.items() if key == mode.key)
-        self._line.label = title if not mode.most_touches else f"{title} · {state.touches}"
+        count = self._context.t("tool.line_touches", count=state.touches)
+        self._line.label = title if not mode.most_touches else f"{title} · {count}"
         self._line.visible = state.result is None
         self._mode.value = title
         self._touches.min, self._touches.max = float(mode.least_touches), float(mode.most_touches)

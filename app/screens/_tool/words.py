@@ -70,8 +70,18 @@ class Words:
         return {self._said(f"angles.{key}", form.title): key for key, form in CONVENTIONS.items()}
 
     def formats(self) -> dict[str, str]:
-        """Title -> key of all formats a tool frame is written in."""
-        return {self._said(f"formats.{key}", form.title): key for key, form in formats().items()}
+        """Title -> key of all formats a tool frame is written in, the own controller's first."""
+        words = self.vocabulary
+        makers = [words.title] if words else []
+        makers.append(self._context.model.description.get("maker", "?"))
+        known = formats()
+
+        def rank(key: str) -> int:
+            return next(
+                (k for k, maker in enumerate(makers) if known[key].title.startswith(maker)), len(makers)
+            )
+
+        return {self._said(f"formats.{key}", known[key].title): key for key in sorted(known, key=rank)}
 
     def _said(self, key: str, own: str) -> str:
         """The operator's words for what has a name of its own; the name where none are needed."""

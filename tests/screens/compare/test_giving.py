@@ -9,9 +9,10 @@ import pytest
 from app.diagnosis.export import export_model, targets
 from app.diagnosis.model import ModelEffect, SavedModel
 from app.kinematics import load_robot
-from app.screens._compare.giving import send_simulation
+from app.screens._compare.giving import send_report, send_simulation
 from app.screens._compare.taking import TARGETS
 from app.texts import text
+from tests.diagnosis.report.cases import static_case
 
 MODEL = SavedModel(
     "motion",
@@ -27,6 +28,7 @@ MODEL = SavedModel(
 class Desk:
     """As much of a page as giving needs."""
 
+    language: str = "en"
     sent: dict[str, bytes] = field(default_factory=dict)
     said: list[tuple[str, str]] = field(default_factory=list)
 
@@ -40,7 +42,7 @@ class Desk:
         return text(key, "en", **fields)
 
 
-@pytest.mark.parametrize("key", TARGETS)
+@pytest.mark.parametrize("key", TARGETS.values())
 def test_the_pendant_gives_the_file_that_the_command_writes(key):
     desk, robot = Desk(), load_robot("ur10e")
     diagnosis = SimpleNamespace(model=MODEL.to_dict(), file="log.csv")
@@ -51,5 +53,17 @@ def test_the_pendant_gives_the_file_that_the_command_writes(key):
     assert any("warmup_friction" in words and "level 3" in words for _, words in desk.said)
 
 
-def test_every_target_has_its_button():
-    assert set(TARGETS) == set(targets())
+def test_the_report_names_the_description_and_not_where_the_server_keeps_it():
+    case = static_case()
+    where = Path("/tmp/teachframe-kept/2/robot.urdf")
+    desk = Desk()
+    send_report(
+        desk,
+        SimpleNamespace(diagnosis=case, robot=load_robot("ur10e"), path=Path("run.csv"), named=str(where)),
+    )
+    page = desk.sent["run.report.html"].decode()
+    assert "--robot robot.urdf" in page and str(where.parent) not in page
+
+
+def test_every_target_can_be_chosen():
+    assert set(TARGETS.values()) == set(targets())

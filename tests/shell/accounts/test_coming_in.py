@@ -39,9 +39,9 @@ def test_a_trainee_joins_works_leaves_and_comes_back_to_his_session(browser, sch
 @pytest.mark.parametrize(
     "path, fields, status, said",
     [
-        ("/login", {"login": "admin", "secret": "wrong"}, 401, "Not this name with this password or PIN."),
-        ("/login", {"login": "nobody", "secret": PASSWORD}, 401, "Not this name with this password or PIN."),
-        ("/login", {}, 401, "Not this name with this password or PIN."),
+        ("/login", {"login": "admin", "secret": "wrong"}, 401, "Wrong name, password or PIN."),
+        ("/login", {"login": "nobody", "secret": PASSWORD}, 401, "Wrong name, password or PIN."),
+        ("/login", {}, 401, "Wrong name, password or PIN."),
         ("/join", {"code": "nonesuch", "name": "A", "pin": PIN}, 400, "No class has this code"),
         ("/join", {"code": "CLASS", "name": "Trainee 1", "pin": "739105"}, 401, "Not this name"),
         ("/join", {"code": "CLASS", "name": "New", "pin": "1234"}, 400, "A PIN has"),
