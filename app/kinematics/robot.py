@@ -15,6 +15,8 @@ import pinocchio as pin  # pyright: ignore[reportMissingImports]  (found through
 from app.geometry.pose import Pose
 from app.kinematics.chain import Chain, Following
 
+#: Names of files that do not tell one arm from another, in small letters.
+_SAYS_NOTHING = {"robot", "model", "urdf", "description"}
 GRAVITY = np.array([0.0, 0.0, -9.81])  # m/s^2 in base, pin's default
 
 
@@ -91,9 +93,10 @@ class RobotModel:
 
     @property
     def title(self) -> str:
-        """The description's, else what the file calls its robot: `robot.urdf` says nothing of which one it is."""
-        own = self.source.get("name", "") if self.source is not None else ""
-        return self.description.get("title") or own or self.name
+        """The description's, else the file's name; where that says nothing, what the file calls its robot."""
+        inside = self.source.get("name") if self.source is not None else None
+        own = inside if inside and self.name.lower() in _SAYS_NOTHING else self.name
+        return self.description.get("title", own)
 
     def said(self, key: str, language: str) -> str:
         """What the description says under a key, `title` or `maker`, in a language: its table `words.LANGUAGE` first.

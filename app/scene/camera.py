@@ -78,7 +78,9 @@ def look_at_all(eyes: Eyes, points: np.ndarray, towards_eye: np.ndarray) -> None
     eyes.look(*framed(points, towards_eye, eyes.aspect), _FIELD)
 
 
-def framed(points: np.ndarray, towards_eye: np.ndarray, aspect: float, fill: float = 0.8) -> View:
+def framed(
+    points: np.ndarray, towards_eye: np.ndarray, aspect: float, fill: float = 0.8, field: float = _FIELD
+) -> View:
     """The nearest eye in a direction from which all points are seen in a window of this shape.
 
     Args:
@@ -86,13 +88,14 @@ def framed(points: np.ndarray, towards_eye: np.ndarray, aspect: float, fill: flo
         towards_eye: (3,) from what is seen to the eye, not straight up.
         aspect: width over height of the window.
         fill: the share of the window they may take; what is left is for labels.
+        field: vertical field of view [rad].
     """
     back = towards_eye / np.linalg.norm(towards_eye)
     right = np.cross([0.0, 0.0, 1.0], back)
     right /= np.linalg.norm(right)
     centre = (points.min(0) + points.max(0)) / 2.0
     rel = points - centre
-    half = fill * np.tan(_FIELD / 2.0)  # of the window's height, at a distance of one
+    half = fill * np.tan(field / 2.0)  # of the window's height, at a distance of one
     sides = np.abs(rel @ right) / (half * aspect)
     heights = np.abs(rel @ np.cross(back, right)) / half
     return centre + float(np.max(rel @ back + np.maximum(sides, heights))) * back, centre

@@ -12,6 +12,7 @@ from app.session import Store
 from app.session.motion import enabling, pace
 from app.shell.server import PendantServer
 from tests.browser.conftest import BRISK, FLAGS, PATIENT_S, SCREEN, chromium_path
+from tests.browser.more_pictures import robots, school
 from tests.browser.operator import Operator
 
 
@@ -88,11 +89,16 @@ def report(browser, path: Path) -> None:
         page = browser.new_context(viewport=_SHEET).new_page()
         page.goto(f"file://{folder}/sim.html")
         page.screenshot(path=str(path))
-        make_light(path)
         page.context.close()
 
 
 PICTURES = {"pendant": paper, "training": exercise, "two_robots": two_robots, "compare": compare}
+#: Those that are no pendant's page; each gets a browser, a folder for data and the picture's path.
+SHEETS = {
+    "report": lambda browser, _, path: report(browser, path),
+    "class": school,
+    "robots": lambda browser, _, path: robots(browser, path),
+}
 ROBOTS = {"pendant": "jby50", "training": "jby50", "two_robots": "irb120", "compare": "ur10e"}
 
 
@@ -109,8 +115,9 @@ def take(folder: Path, names: list[str]) -> None:
         browser = playwright.chromium.launch(executable_path=chromium_path(), args=FLAGS)
         try:
             for name in names:
-                if name == "report":
-                    report(browser, folder / "report.png")
+                if name in SHEETS:
+                    SHEETS[name](browser, Path(data) / "school", folder / f"{name}.png")
+                    make_light(folder / f"{name}.png")
                     continue
                 context = browser.new_context(viewport=SCREEN)
                 person = Operator(context.new_page(), server, ROBOTS[name])
@@ -135,4 +142,4 @@ def make_light(path: Path) -> None:
 
 
 if __name__ == "__main__":
-    take(Path(sys.argv[1] if len(sys.argv) > 1 else "static/pictures"), sys.argv[2:] or [*PICTURES, "report"])
+    take(Path(sys.argv[1] if len(sys.argv) > 1 else "static/pictures"), sys.argv[2:] or [*PICTURES, *SHEETS])

@@ -84,10 +84,13 @@ def test_a_limit_that_is_no_number_is_named(tmp_path):
         load_text(tmp_path, arm(1).replace('upper="1"', 'upper="far"'))
 
 
-def test_an_arm_of_ones_own_is_called_what_its_file_calls_it(tmp_path):
-    robot = load_text(tmp_path, arm(2))
-    assert (robot.name, robot.title) == ("arm", "r")
-    assert load_text(tmp_path, arm(2).replace(' name="r"', "")).title == "arm"
+def test_a_file_whose_name_says_nothing_is_called_what_it_calls_its_robot(tmp_path):
+    path = tmp_path / "robot.urdf"
+    path.write_text(arm(2))
+    assert (load_robot(path).name, load_robot(path).title) == ("robot", "r")
+    path.write_text(arm(2).replace(' name="r"', ""))
+    assert load_robot(path).title == "robot"
+    assert load_text(tmp_path, arm(2)).title == "arm"  # a name that somebody gave
 
 
 def test_meshes_need_not_exist(tmp_path):

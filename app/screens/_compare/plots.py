@@ -53,9 +53,9 @@ def seen(of: Budget, language: str = FALLBACK) -> Budget:
     return replace(of, steps=(*steps, Step(name, amount, of.rest, 0.0)))
 
 
-def _legend(language: str, *, found: bool) -> str:
+def _legend(language: str, *, found: bool, measured: bool = False) -> str:
     """What the colours of a picture are."""
-    keys = ("before", "found") if found else ("before",)
+    keys = ("measured",) * measured + ("before",) + ("found",) * found
     return html.joined(
         html.safe('<div class="legend {}">{}</div>', look, WORDS.text(f"page.key.{look}", language))
         for look in keys
@@ -84,7 +84,9 @@ def trace(
     """Torque of one joint (from 0) over time, the shown moment marked."""
     events = events_of(diagnosis) if diagnosis is not None else ()
     drawn = trace_plot(evidence, joint, events, labelled=True, width=PANEL_WIDTH, at=at)
-    return _framed(drawn, "compare-trace", language)
+    legend = _legend(language, found=diagnosis is not None, measured=True)
+    areas = html.paragraph(text("compare.areas", language), faint=True) if evidence.parts else ""
+    return legend + _framed(drawn, "compare-trace", language) + areas
 
 
 def _framed(picture: str, testid: str, language: str) -> str:

@@ -114,3 +114,8 @@ def test_the_two_colours_are_named_beside_the_bars():
         drawn = plots.bars(static_case(), language)
         assert all(word in drawn for word in words)
         assert drawn.count('class="legend') == 2
+    log = motion_case()
+    assert plots.trace(log.evidence, 1, log, None, "en").count('class="legend') == 3
+    assert (
+        plots.trace(log.evidence, 1, None, None, "en").count('class="legend') == 2
+    )  # nothing was searched for

@@ -43,7 +43,7 @@ def test_a_trainee_joins_works_leaves_and_comes_back_to_his_session(browser, sch
         ("/login", {"login": "nobody", "secret": PASSWORD}, 401, "Wrong name, password or PIN."),
         ("/login", {}, 401, "Wrong name, password or PIN."),
         ("/join", {"code": "nonesuch", "name": "A", "pin": PIN}, 400, "No class has this code"),
-        ("/join", {"code": "CLASS", "name": "Trainee 1", "pin": "739105"}, 401, "Not this name"),
+        ("/join", {"code": "CLASS", "name": "Trainee 1", "pin": "739105"}, 401, "Wrong name"),
         ("/join", {"code": "CLASS", "name": "New", "pin": "1234"}, 400, "A PIN has"),
         ("/join", {"code": "CLASS", "name": " ", "pin": PIN}, 400, "A name has"),
     ],
