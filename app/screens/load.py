@@ -175,7 +175,7 @@ class _View:
             self._context.say("warning", self._context.t("load.none"))
         else:
             self._context.do(Weighed(found.mass, found.centre, found.mass_half, found.centre_half))
-            self._context.say("good", self._context.t("load.done", kg=f"{found.mass:.2f}"))
+            self._context.say("good", self._context.t("load.done", kg=f"{found.mass:.3f}"))
 
     def _anew(self) -> None:
         self._stop.set()

@@ -91,3 +91,25 @@ def test_the_cell_can_be_taken_away_and_drawn_again(run_of):
     first.drawing.clear()
     second = run_of(nests=True, pushed=False)
     assert second.drawing.arms and second.measure().seen
+
+
+def test_what_is_said_at_the_end_is_what_was_found(desk):
+    from types import SimpleNamespace as Some
+
+    view, grave = desk.view("run"), Some(severe=True)
+    ends = (
+        (Some(T_base1_base2=object(), warnings=()), "good", "Both bases are found"),
+        (Some(T_base1_base2=object(), warnings=(grave,)), "warning", "serious warning"),
+        (Some(T_base1_base2=None, warnings=(grave,)), "warning", "No relation"),
+        (None, "warning", "No relation"),
+    )
+    for relation, level, words in ends:
+        run = Some(wizard=Some(done=True), relation=None, solve=lambda relation=relation: relation)
+        desk.does(lambda run=run: view._finish(run))
+        assert desk.said[0] == level and words in desk.said[1]
+
+
+def test_the_wizards_points_are_not_shown_beside_another_arm(desk):
+    assert desk.live.read().points
+    desk.does(lambda: desk.context.show_instead(lambda: (desk.context.model, desk.q)))
+    assert desk.live.read().points == ""

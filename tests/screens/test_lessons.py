@@ -44,7 +44,7 @@ def test_pressing_three_buttons_four_times_passes_the_first_level_and_no_more(si
     assert sum(card.shown) == round(card.total)
     assert next(part.value for part in card.parts if part.key == "alone") == 0.0
     labels = desk.shown()
-    assert any(label.startswith("Next: My first tool point, contact light only") for label in labels)
+    assert any(label.startswith("Next: My first tool point (contact light only)") for label in labels)
     assert "Try again" in labels
     desk.press(next(label for label in labels if label.startswith("Next: ")))
     assert desk.state.running.begun.without == LEVELS["light"] and not desk.state.captures

@@ -10,7 +10,17 @@ import numpy as np
 
 from app.diagnosis.model import SavedModel
 from app.diagnosis.quantity import quantity
-from app.diagnosis.report.budget import budget, family_name, folded_sentence, percent, shown
+from app.diagnosis.report.budget import (
+    SMALL_AMOUNT,
+    SMALL_LAW,
+    Budget,
+    Step,
+    budget,
+    family_name,
+    folded_sentence,
+    percent,
+    shown,
+)
 from app.diagnosis.report.drawing.palette import colour
 from app.diagnosis.report.wording import (
     effect_title,
@@ -149,6 +159,8 @@ def findings(context: Context, diagnosis: Diagnosis) -> str:
         return _card(context, k + 1, diagnosis.findings[k], diagnosis.after.unit, colour(family))
 
     for step in shown(of):
+        if not (step.members or step.small) and _vanishes(step, of):
+            continue
         back = context.t("compare.comes_back", share=percent(step.share))
         words = f"{family_name(step.family, language)} · {measure(step.amount, of.unit)}"
         out.append(html.block(html.safe("<b>{}</b> <small>{}</small>", words, back), look="family"))
@@ -158,6 +170,11 @@ def findings(context: Context, diagnosis: Diagnosis) -> str:
             inside = html.joined(card(k, step.family) for k in step.small)
             out.append(html.block(html.more(folded, inside)))
     return html.joined([*out, *(card(k, "") for k in of.others)])
+
+
+def _vanishes(step: Step, of: Budget) -> bool:
+    """True for a family that neither takes anything to speak of away nor would be missed."""
+    return step.amount < SMALL_AMOUNT * of.total and step.share < SMALL_LAW
 
 
 def _card(context: Context, number: int, f: Finding, unit: str, edge: str) -> str:

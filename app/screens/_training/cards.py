@@ -67,16 +67,17 @@ def _aims(context: Context, chosen: Exercise) -> str:
         )
         if value
     ]
-    return ", ".join(found)
+    return context.t("list.between").join(found)
 
 
 def _helps(context: Context, chosen: Exercise, without: tuple[str, ...]) -> str:
     allowed = [k for k in _HELPS if getattr(chosen.allowed, k) and k not in without]
     missing = [k for k in _HELPS if k not in allowed]
-    said = ", ".join(context.t(f"training.help_{k}") for k in allowed)
+    between = context.t("list.between")
+    said = between.join(context.t(f"training.help_{k}") for k in allowed)
     if missing:
-        said += ". " + context.t(
-            "training.without", helps=", ".join(context.t(f"training.help_{k}") for k in missing)
+        said += context.t("list.sentences") + context.t(
+            "training.without", helps=between.join(context.t(f"training.help_{k}") for k in missing)
         )
     return said
 

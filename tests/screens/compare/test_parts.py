@@ -119,3 +119,18 @@ def test_the_two_colours_are_named_beside_the_bars():
     assert (
         plots.trace(log.evidence, 1, None, None, "en").count('class="legend') == 2
     )  # nothing was searched for
+
+
+def test_a_family_without_a_law_of_its_own_is_listed_where_it_would_be_missed(desk):
+    from dataclasses import replace
+
+    from app.diagnosis.report.budget import shown
+    from app.screens._compare import cards
+
+    case = static_case()
+    bare = replace(case, families=tuple(replace(f, members=()) for f in case.families))
+    said = cards.findings(desk.context, bare)
+    assert all(s.members == () for s in shown(plots.budget(bare)))
+    named = [f for f in bare.families if f.share > 0.1]
+    assert named and said.count('block family') >= len(named)
+    assert "comes back without it" in said
