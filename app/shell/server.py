@@ -33,6 +33,7 @@ from app.shell.entrance import Entrance, Visitor
 from app.shell.files import Drops, download
 from app.shell.floods import Floods, Flow
 from app.shell.listening import address_of, listen_at
+from app.shell.not_here import not_here
 from app.shell.outside import LOGIN, Outside
 from app.shell.provider import Provider
 from app.shell.security import HEADERS, LOOK_COOKIE, PAGE_POLICY, Doors
@@ -94,7 +95,8 @@ class Shell:
         self._routes = list(routes)
         if prefix:
             routes = [Mount(prefix, routes=routes)]
-        inner = Starlette(routes=routes, lifespan=self._life, exception_handlers=_HANDLERS)
+        handlers = {**_HANDLERS, 404: not_here(prefix)}
+        inner = Starlette(routes=routes, lifespan=self._life, exception_handlers=handlers)
         flow = None if people is None or fronted else Flow(self._entrance.key)
         self.app: ASGIApp = Doors(Floods(inner, flow), host, names)
 

@@ -127,6 +127,10 @@ def test_under_a_prefix_everything_stands_below_it(tmp_path):
     app = Shell(hub, "127.0.0.1", people=people, prefix="/teachframe").app
     with TestClient(app, base_url=ADDRESS, follow_redirects=False) as client:
         assert client.get("/login").status_code == 404
+        lost = client.get("/teachframe/nothing", headers={"accept": "text/html"})
+        assert lost.status_code == 404 and 'href="/teachframe/"' in lost.text
+        assert "content-security-policy" in lost.headers and "此地址" in lost.text
+        assert client.get("/teachframe/nothing").text == "Not Found"  # no page for programs
         assert client.get("/teachframe/").headers["location"] == "/teachframe/login"
         page = client.get("/teachframe/login")
         assert (

@@ -132,5 +132,5 @@ def test_a_family_without_a_law_of_its_own_is_listed_where_it_would_be_missed(de
     said = cards.findings(desk.context, bare)
     assert all(s.members == () for s in shown(plots.budget(bare)))
     named = [f for f in bare.families if f.share > 0.1]
-    assert named and said.count('block family') >= len(named)
+    assert named and said.count("block family") >= len(named)
     assert "comes back without it" in said
