@@ -94,6 +94,9 @@ def build(fitted: Fitted, file: str, *, reference: Fitted | None = None) -> Diag
     left = fitted.left
     shaped = [j for j, count in waves(study).items() if count > RIPPLES]
     mismatch = float(np.mean(before**2)) - noise.value**2 / study.samples.window
+    # of the mismatch: what laws without a name explain, and what nothing does
+    beyond = max(quality_after.heldout_rms**2 - noise.value**2, 0.0)
+    left_share = min(unnamed + beyond / max(quality_before.heldout_rms**2 - noise.value**2, 1e-300), 1.0)
     silent = withheld(study, fitted.solution, found, mismatch)
     structure = bool(left.any()) or unnamed > UNNAMED_SHARE or bool(shaped) or bool(silent)
     foreign: tuple[str, ...] = ()
@@ -108,7 +111,7 @@ def build(fitted: Fitted, file: str, *, reference: Fitted | None = None) -> Diag
     return Diagnosis(
         file=file, kind="motion", robot=robot.name, samples=len(log.t), verdict=verdict, noise=noise,
         before=quality_before, after=quality_after, findings=findings,
-        outliers=tuple(int(r) for r in log.dropped), leftover=_leftover(fitted, found, structure, silent),
+        outliers=tuple(int(r) for r in log.dropped), leftover=_leftover(fitted, found, structure, silent, left_share),
         next_poses=poses, seconds=0.0, families=families, model=model.to_dict(),
         notes=(*_notes(fitted), *foreign, *advice),
         evidence=evidence_of(fitted, before, whole, effects),
@@ -257,10 +260,11 @@ def _with_members(
     )
 
 
-def _leftover(fitted: Fitted, found: list[Member], structure: bool, silent: list[Member]) -> Leftover:
+def _leftover(
+    fitted: Fitted, found: list[Member], structure: bool, silent: list[Member], share: float
+) -> Leftover:
     study = fitted.study
     j = int(np.argmin(study.leftover_p))
-    share = float(np.clip(sum(m.share for m in found if not m.named), 0.0, 1.0))
     if not structure:
         return Leftover(float(min(1.0, study.leftover_p[j] * study.design.joints)), {}, share)
     where: dict[str, object] = {"joint": j + 1}
