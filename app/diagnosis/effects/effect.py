@@ -106,7 +106,7 @@ class Effect(ABC, Generic[Situation, Columns, Cell]):
         group: name of those that share one learnt width; empty for the effect's own.
         serving: True where it only allows for what another law cannot know; it is never named.
         undone: True where it is taken out of the recording before anything is fitted (a convention, a delay).
-        lasting: False for events of one recording, which a model does not carry to another.
+        lasting: False for events of one recording, which a model does not carry to another; see `lasts`.
         moves_base: True where it puts the whole base elsewhere, however far.
         no_words: why a description of rigid bodies has none for it, where its name does not say that.
         located_by: keys of `where` that its place has to name; empty where it may stand for the whole arm.
@@ -163,6 +163,10 @@ class Effect(ABC, Generic[Situation, Columns, Cell]):
     def impossible(self, parameters: Mapping[str, float]) -> tuple[str, str] | None:
         """The first saved value that no arm has, by name, and what it could be; None where all may be."""
         return None
+
+    def lasts(self, where: Mapping[str, Any]) -> bool:
+        """False for what happened once, in its own recording: an event, or what begins at a row or a time."""
+        return self.lasting and "from_row" not in where and "from_s" not in where
 
     def widths(self, situation: Situation, place: Place) -> np.ndarray:
         """(d,) nominal one-sigma sizes, SI."""

@@ -119,10 +119,6 @@ class Law(Effect[State, State, np.ndarray]):
         """True where it acts from a time on, or between two times: it is searched for over the log."""
         return bool(self.ends)
 
-    def lasts(self, where: Where) -> bool:
-        """False for what happened once, in its own log."""
-        return self.lasting and "from_s" not in where
-
     def beyond_trust(self, weights: np.ndarray) -> bool:
         """False for values (d,), in nominal widths, within the trust that the description deserves."""
         return True

@@ -19,7 +19,6 @@ class InstrumentZeroShift(KinematicEffect):
     equation = "range_measured = range + offset"
     family = "instrument"
     cap = 20.0
-    lasting = False
 
     def places(self, situation):
         if situation.instrument == "targets":
