@@ -32,6 +32,7 @@ class ModelEffect(msgspec.Struct, frozen=True):
         fades: True for what holds only between the joint ranges of `Taught`; rows that go elsewhere are predicted
             without it.
         along: the joint (from 1) whose range alone counts for that; 0 for all joints.
+        near: True where it fades away from the poses of `Taught` as well, within the ranges too.
     """
 
     effect: str
@@ -40,6 +41,7 @@ class ModelEffect(msgspec.Struct, frozen=True):
     named: bool = True
     fades: bool = False
     along: int = 0
+    near: bool = False
 
 
 class Taught(msgspec.Struct, frozen=True):

@@ -45,6 +45,7 @@ STAY = {
         "dynamic/saving.py": {"POSES", "STILL"},
         "dynamic/solution.py": {"BLOCKS", "FOLDS"},
         "kinematic/findings.py": {"_MOST_RIVALS"},
+        "kinematic/regions.py": {"_HALVINGS"},
         "kinematic/hypotheses.py": {"_SHORT_LIST"},
         "models/dynamic/both_sides.py": {"FOLDS", "STRETCHES", "TURNS"},
         "models/dynamic/commands.py": {"STRETCHES"},

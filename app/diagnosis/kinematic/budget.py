@@ -16,7 +16,9 @@ from app.units import mm
 _NONE = 1e-4
 
 
-def shared_terms(found: Description, spoken: frozenset[tuple] = frozenset()) -> list[tuple[str, Term]]:
+def shared_terms(
+    found: Description, spoken: frozenset[tuple] = frozenset(), local: bool = False
+) -> list[tuple[str, Term]]:
     """Every part of the model with the family it counts to.
 
     A mechanism holds as far as its own joint was seen to turn, what has no name where all joints were seen. Elsewhere
@@ -26,6 +28,8 @@ def shared_terms(found: Description, spoken: frozenset[tuple] = frozenset()) -> 
 
     Args:
         spoken: labels of the terms that are findings.
+        local: True where mechanisms and what has no name, as far as they are no findings, say nothing of other poses
+            (regions.py): they then hold among poses like those of the recording alone.
     """
     library, linear = found.library, found.linear
     q = found.state.recording.q
@@ -33,7 +37,7 @@ def shared_terms(found: Description, spoken: frozenset[tuple] = frozenset()) -> 
     weights = np.zeros(linear.design.size)
     weights[found.posterior.columns] = found.posterior.weights
     back = _taken_back(found, weights, ranges)
-    without = _without(found, weights, spoken)
+    without = _without(found, weights, spoken, local)
     out: list[tuple[str, Term]] = []
     for number, columns in linear.columns.items():
         candidate = library.fixed[number]
@@ -42,13 +46,17 @@ def shared_terms(found: Description, spoken: frozenset[tuple] = frozenset()) -> 
             own = reach_of(ranges, candidate.place.where.get("joint", 0))
         elif candidate.effect.level == Level.UNKNOWN:
             own = _holds(candidate.place, ranges)
+        near = local and candidate.effect.level != Level.CALIBRATION and candidate.label not in spoken
         everywhere = weights[columns] + sum(w[columns] for w in without.values())
-        parts = [(family, everywhere, own)]
-        parts += [(UNNAMED, taken[columns], reach) for reach, taken in back]
-        parts += [(family, -w[columns], reach_of(ranges, j)) for j, w in without.items()]
-        for counted, values, reach in parts:
+        parts = [(family, everywhere, own, near)]
+        parts += [(UNNAMED, taken[columns], reach, local) for reach, taken in back]
+        parts += [(family, -w[columns], reach_of(ranges, j), local) for j, w in without.items()]
+        for counted, values, reach, among in parts:
             if np.abs(values).max(initial=0.0) > _NONE:
-                term = Term(candidate.effect, candidate.place, values * candidate.widths, reach=reach)
+                reach = None if among else reach
+                term = Term(
+                    candidate.effect, candidate.place, values * candidate.widths, reach=reach, near=among
+                )
                 out.append((counted, term))
     return out
 
@@ -84,8 +92,12 @@ def _taken_back(
     return list(out.values())
 
 
-def _without(found: Description, weights: np.ndarray, spoken: frozenset[tuple]) -> dict[int, np.ndarray]:
+def _without(
+    found: Description, weights: np.ndarray, spoken: frozenset[tuple], local: bool
+) -> dict[int, np.ndarray]:
     """Joint -> (p,) by how much calibration would be another if its mechanisms without a name did not hold.
+
+    With `local` what has no name does not hold either.
 
     The posterior of calibration alone at the learnt widths: (X'X + Gamma^-1)^-1 X'U w of what mechanisms explain.
     """
@@ -94,11 +106,13 @@ def _without(found: Description, weights: np.ndarray, spoken: frozenset[tuple]) 
     upper: dict[int, list[int]] = {}
     for number in _inside(found):
         candidate, columns = library.fixed[number], linear.columns[number].tolist()
-        if candidate.effect.level == Level.CALIBRATION and candidate.effect.lasting:
+        if candidate.effect.level == Level.CALIBRATION and candidate.effect.lasts(candidate.place.where):
             lower += columns
             continue
-        free = candidate.effect.lasting and candidate.label not in spoken
-        if candidate.effect.level == Level.MECHANISM and free:
+        free = candidate.effect.lasts(candidate.place.where) and candidate.label not in spoken
+        if free and (
+            candidate.effect.level == Level.MECHANISM or (local and candidate.effect.level == Level.UNKNOWN)
+        ):
             upper.setdefault(int(candidate.place.where.get("joint", 0)), []).extend(columns)
     if not lower or not upper:
         return {}

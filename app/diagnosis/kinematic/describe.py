@@ -24,6 +24,7 @@ from app.diagnosis.thresholds.evidence import (
     BETTER,
     COMPONENTS_A_PARAMETER,
     FAR_BEHIND,
+    TAKE,
     WIDTHS,
 )
 from app.diagnosis.thresholds.rows import OUTLIER_WEIGHT, STEP_EDGE
@@ -240,7 +241,7 @@ class _Work:
         # on a sound description, unnamed laws are the rivals of every name
         self.linearise(NAMED if self.dense else ALL)
         described = self._described(shared)
-        if not self.dense and described.selection:
+        if not self.dense:
             described.calibrated = self.calibrated(described)
         return described
 
@@ -259,19 +260,28 @@ class _Work:
         """All calibration beside the few laws, what has no name keeping only what calibration cannot take.
 
         A few laws are enough to name; but what has no name says nothing of other poses, where an ordinary
-        calibration does. Taken where something has no name, and where the evidence is for it.
+        calibration does. Taken where the data are likelier with all of it, and where something has no name: then only
+        what of it earns its place.
         """
         problem, laws = self.problem, dict(self.problem.labels)
         nameless = any(
             problem.library.fixed[n].effect.level == Level.UNKNOWN for n in laws if isinstance(n, int)
         )
-        problem.linearise(self.state, NAMED, True, False)
-        problem.evidence.kept = set(problem.selection())
-        ordinary = [g for g in problem.families() if problem.calibrates(g) and g not in problem.selection()]
-        start = {**dict.fromkeys(ordinary, 1.0), **problem.selection()}
-        selection = problem.search([]).pruned(problem.evidence.tuned(start))
-        likelier = problem.evidence.score(selection) > few.evidence.score(few.selection) + BETTER
-        if not (nameless or likelier) or not set(selection) & set(ordinary):
+        problem.linearise(self.state, NAMED, True, True)
+        named = problem.selection()
+        ordinary = [g for g in problem.families() if problem.calibrates(g) and g not in named]
+        start = {**dict.fromkeys(ordinary, 1.0), **named}
+        problem.evidence.kept = set(start)
+        selection = problem.evidence.tuned(start)
+        # a family's price is that of a claim; that an arm is a little off everywhere is what one expects
+        free = sum(problem.evidence.groups[g].penalty for g in ordinary)
+        margin = BETTER if few.selection else TAKE  # to say that nothing is wrong is a claim too
+        if problem.evidence.score(selection) + free < few.evidence.score(few.selection) + margin:
+            if not nameless:
+                return None
+            problem.evidence.kept, problem.evidence.alike = set(named), set()
+            selection = problem.search([]).pruned(problem.evidence.tuned(start))
+        if not set(selection) & set(ordinary):
             return None
         problem.take(selection)
         for _ in range(_REFITS):

@@ -19,6 +19,7 @@ from app.diagnosis.kinematic.left import Left, left_over
 from app.diagnosis.kinematic.next_poses import next_poses
 from app.diagnosis.kinematic.orientation import with_worth
 from app.diagnosis.kinematic.pictures import evidence_of
+from app.diagnosis.kinematic.regions import local
 from app.diagnosis.kinematic.remarks import remarks
 from app.diagnosis.model import ModelEffect, SavedModel
 from app.diagnosis.models.kinematic.saved import (
@@ -86,8 +87,8 @@ def _concluded(
     """Names, budget, the saved model, and the errors that it gives."""
     names, whole = named(found), found.calibrated or found
     spoken = frozenset(found.library.fixed[n.number].label for n in names)
-    parts = budget.shared_terms(whole, spoken)
     kept = found.rows > OUTLIER_WEIGHT
+    parts = budget.shared_terms(whole, spoken, local(whole, kept))
     after = budget.heldout_after(whole, kept)
     heldout = list(after.values())[-1] if after else quality_of(whole.state, kept).heldout_rms
     saved = _model(recording, robot, written, whole, given, spoken, parts, heldout)
@@ -131,7 +132,7 @@ def _verdict(said: tuple, left: Left, found: Description) -> Verdict:
     """Clean is only said of a description that stands as it was given: nothing had to be moved."""
     if said:
         return "partly" if left.structure else "named"
-    return "unexplained" if left.structure or found.selection else "clean"
+    return "unexplained" if left.structure or found.selection or found.calibrated else "clean"
 
 
 def _freedom(found: Description) -> float:

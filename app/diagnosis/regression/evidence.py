@@ -19,7 +19,7 @@ from app.diagnosis.regression.groups import Group, Layout, Selection
 from app.diagnosis.regression.inside import ROUNDING, Inside
 from app.diagnosis.regression.solved import Beside, Factor, Posterior, Statistics
 from app.diagnosis.regression.triangular import inverse_of, lower_solved
-from app.diagnosis.thresholds.evidence import LIKENESS
+from app.diagnosis.regression.usual import density
 
 __all__ = ["Beside", "Evidence", "Factor", "Group", "Posterior", "Selection", "Statistics"]
 
@@ -275,12 +275,10 @@ class Evidence:
         return now
 
     def _expected(self, g: int, now: Mapping[int, float]) -> np.ndarray | None:
-        """(w,) log density of each width of a group that is alike with others, from theirs; None for any other."""
+        """(w,) log density of each width of a group; None where one is as likely as another."""
         others = [now[h] for h in self.alike if h in now and h != g] if g in self.alike else []
-        if not others:
-            return None
-        off = np.log(self.groups[g].widths) - np.log(others).mean()
-        return np.asarray(-0.5 * (off / LIKENESS) ** 2)
+        noise = None if self.unit_noise else self.variance(self.factor(now))
+        return density(self.groups[g].widths, noise, others)
 
     def posterior(self, selection: Mapping[int, float]) -> Posterior:
         f = self.factor(selection)

@@ -22,8 +22,9 @@ BETTER = 0.5
 EXCHANGES = 4
 #: Cosine between two columns beyond which one can hide the other: their sum leaves half of either or less.
 PAIR_COSINE = 0.7
-#: Natural logarithm of variances: zeros, lengths and angles of one arm are off by about as many of their usual sizes,
-#: to a factor of two at one sigma, because they come from the same shop and the same care.
+#: Natural logarithm of variances: whatever an arm is off by, it is off by about its usual size, to a factor of two at
+#: one sigma, and zeros, lengths and angles of one arm by about as many of theirs, because they come from the same shop
+#: and the same care. Without it few rows in a part of the workspace, where one kind looks like another, learn any size.
 LIKENESS = 2.0 * float(np.log(2.0))
 #: nats by which a description of few laws may be behind one of families before exchanges of its laws are tried: five
 #: laws that were taken one by one change places for tens of nats, an arm that is off everywhere is ahead by hundreds.

@@ -34,7 +34,7 @@ class Backlash(KinematicEffect):
     family = "play"
     located_by = ("joint",)
     level = Level.MECHANISM
-    cap = 30.0
+    cap = 30.0  # 6 mrad: a third of a degree, worn gears and hobby servos
     whole = True
     always = True
 

@@ -32,7 +32,7 @@ class GearEccentricity(KinematicEffect):
     family = "gears"
     located_by = ("joint",)
     level = Level.MECHANISM
-    cap = 20.0
+    cap = 8.0  # 1.6 mrad: a disc 50 um out of centre under marks 30 mm from it
     whole = True
     always = True
 

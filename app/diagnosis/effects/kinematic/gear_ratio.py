@@ -26,7 +26,7 @@ class GearRatio(KinematicEffect):
     family = "gears"
     located_by = ("joint",)
     level = Level.MECHANISM
-    cap = 20.0
+    cap = 6.0  # 2 mrad a radian: a tooth more or less is far beyond, and a convention
     whole = True
     always = True
 

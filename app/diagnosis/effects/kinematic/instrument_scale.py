@@ -18,8 +18,7 @@ class InstrumentScale(KinematicEffect):
     title = "The instrument's scale is off"
     equation = "measured = true * (1 + scale_error)"
     family = "instrument"
-    cap = 20.0
-    lasting = False
+    cap = 5.0  # half a millimetre a metre: cameras; lasers are a hundred times better
 
     def places(self, situation):
         return [Place({"body": "instrument"})]

@@ -6,6 +6,7 @@ import hashlib
 from collections.abc import Iterable
 
 import numpy as np
+from scipy.spatial.distance import cdist
 
 from app.diagnosis.effects.effect import Place
 from app.diagnosis.model import ModelEffect, SavedModel, Taught
@@ -14,6 +15,7 @@ from app.diagnosis.models.kinematic.situation import Situation
 from app.diagnosis.models.kinematic.terms import Term, effects
 from app.diagnosis.observations.conventions import Convention
 from app.diagnosis.observations.pose_data import StaticRecording
+from app.diagnosis.thresholds.drivers import ALIKE, NEAREST
 from app.errors import UnknownNameError
 from app.kinematics import RobotModel
 
@@ -32,7 +34,9 @@ def model_effects(situation: Situation, terms: Iterable[Term]) -> tuple[ModelEff
         parameters = {q.name: float(v) for q, v in zip(quantities, term.values, strict=True)}
         parameters |= {_FIXED + name: float(value) for name, value in term.place.fixed.items()}
         fades, along = term.reach is not None, _along(term.reach)
-        out.append(ModelEffect(term.effect.key, dict(term.where), parameters, term.named, fades, along))
+        out.append(
+            ModelEffect(term.effect.key, dict(term.where), parameters, term.named, fades, along, term.near)
+        )
     return tuple(out)
 
 
@@ -89,8 +93,9 @@ def taught_by(recording: StaticRecording, heldout_mm: float) -> Taught:
 def held_terms(model: SavedModel, situation: Situation, rows: str = "") -> tuple[Term, ...]:
     """A saved model's effects as terms for this situation.
 
-    Events of a recording (steps, drifts, the instrument) belong to the rows they were found in and are left out
-    elsewhere; they shift what every other recording fits anew.
+    Events of a recording (steps, drifts) belong to the rows they were found in and are left out elsewhere; they shift
+    what every other recording fits anew. What an instrument gets wrong throughout (its zero, its scale) is carried: no
+    base takes it up, and whoever measures an arm again mostly does so with the same instrument.
 
     Args:
         rows: fingerprint of these rows; empty for none in particular.
@@ -101,11 +106,14 @@ def held_terms(model: SavedModel, situation: Situation, rows: str = "") -> tuple
     out = []
     known = effects()
     own = bool(rows) and rows == model.taught.rows
+    alike = own or not any(entry.near for entry in model.effects) or _alike(model.taught, situation.q)
     for entry in model.effects:
         if entry.effect not in known:
             raise UnknownNameError(entry.effect, available=known, what="static effect in the saved model")
         effect = known[entry.effect]
-        if effect.undone or not (effect.lasting or own or not model.taught.rows):
+        if entry.near and not alike:
+            continue
+        if effect.undone or not (effect.lasts(entry.where) or own or not model.taught.rows):
             continue
         fixed = {k[len(_FIXED) :]: v for k, v in entry.parameters.items() if k.startswith(_FIXED)}
         place = Place(dict(entry.where), fixed, scan="from_row" in entry.where)
@@ -118,6 +126,16 @@ def held_terms(model: SavedModel, situation: Situation, rows: str = "") -> tuple
         values = np.array([entry.parameters[n] for n in names], float)
         out.append(Term(effect, place, values, entry.named, _reach(model.taught, entry)))
     return tuple(out)
+
+
+def _alike(taught: Taught, q: np.ndarray) -> bool:
+    """Whether poses q (m, n) lie among those taught, each joint measured by how far it was moved there."""
+    poses = np.array(taught.poses)
+    scale = np.maximum(poses.std(axis=0), _STILL)
+    between = cdist(poses / scale, poses / scale)
+    np.fill_diagonal(between, np.inf)
+    near = np.quantile(between.min(axis=1), NEAREST)
+    return bool(np.mean(cdist(q / scale, poses / scale).min(axis=1) <= near) >= ALIKE)
 
 
 def _reach(taught: Taught, entry: ModelEffect) -> np.ndarray | None:

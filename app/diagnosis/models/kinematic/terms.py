@@ -36,6 +36,7 @@ class Term:
         named: False for what belongs to the fit without being a finding.
         reach: (2, n) lowest and highest joint positions between which it was learnt and holds. None: a
             law, which holds everywhere.
+        near: True where it holds only among poses like those it was learnt at.
     """
 
     effect: Effect
@@ -43,6 +44,7 @@ class Term:
     values: np.ndarray
     named: bool = False
     reach: np.ndarray | None = None
+    near: bool = False
 
     @property
     def where(self) -> Mapping[str, Any]:
