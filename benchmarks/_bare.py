@@ -27,16 +27,16 @@ def bare(count: int, seconds: float) -> float:
     process = multiprocessing.get_context("spawn").Process(target=_serve, args=(count, theirs), daemon=True)
     process.start()
     try:
-        origin, ports = ours.recv()
-        return asyncio.run(_watched(process.pid or 0, origin, ports, seconds))
+        ports = ours.recv()
+        return asyncio.run(_watched(process.pid or 0, ports, seconds))
     finally:
         process.terminate()
         process.join(timeout=20.0)
 
 
-async def _watched(pid: int, origin: str, ports: list[int], seconds: float) -> float:
+async def _watched(pid: int, ports: list[int], seconds: float) -> float:
     protocol: Any = f"viser-v{version('viser')}"
-    named: Any = {"origin": origin, "subprotocols": [protocol], "compression": None, "max_size": None}
+    named: Any = {"subprotocols": [protocol], "compression": None, "max_size": None}
     sockets = [await connect(f"ws://127.0.0.1:{port}", **named) for port in ports]
 
     async def read(socket: Any) -> None:
@@ -56,9 +56,10 @@ async def _watched(pid: int, origin: str, ports: list[int], seconds: float) -> f
 
 
 def _serve(count: int, pipe: Connection) -> None:
+    import viser
+
     from app.kinematics import load_robot
     from app.scene.arm import ArmView
-    from app.scene.server import SECRET_ORIGIN, start_scene_server
 
     robot = load_robot(ROBOT)
 
@@ -71,9 +72,9 @@ def _serve(count: int, pipe: Connection) -> None:
             due += 1.0 / HZ
             time.sleep(max(0.0, due - time.monotonic()))
 
-    servers = [start_scene_server() for _ in range(count)]
+    servers = [viser.ViserServer(host="127.0.0.1", port=0, verbose=False) for _ in range(count)]
     for server in servers:
         arm = ArmView(server.scene, robot)
         threading.Thread(target=turn, args=(server, arm), daemon=True).start()
-    pipe.send((SECRET_ORIGIN, [server.get_port() for server in servers]))
+    pipe.send([server.get_port() for server in servers])
     pipe.recv()

@@ -1,6 +1,6 @@
 """What stands in the cell, one file a thing; the only package that imports viser. Positions in metres, in base.
 
-server.py      one viser server a session, closed to everybody but the bridge
+server.py      one viser server a session, without a port; pages.py how it gets to its pages
 client_page.py viser's client as one page without its panels
 stage.py       everything of the usual cell, and what of it is seen
 arm.py         an arm: nested frames, a turn a joint

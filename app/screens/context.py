@@ -255,7 +255,7 @@ class Context:
             _LOG.exception("the page of session %s could not be updated", self.session.name)
 
     def _make_stage(self) -> Stage:
-        with self._server.atomic():  # one message to the scene's thread instead of one for each part
+        with self._server.atomic():  # one word to the pages instead of one for each part
             self._server.scene.world_axes.visible = False
             return Stage(
                 self._server, self.world, self.following.event, dark=self.look.dark, handle=self.aids.handle

@@ -1,27 +1,21 @@
-"""The scene's page and its socket under our own address: frames go through unchanged."""
+"""The scene's page and its socket under our own address."""
 
 from __future__ import annotations
 
-import asyncio
 import contextlib
 import gzip
 import hashlib
-from collections.abc import Awaitable, Callable
 from functools import cache
 
 from starlette.requests import Request
 from starlette.responses import Response
 from starlette.websockets import WebSocket, WebSocketDisconnect
-from websockets.asyncio.client import ClientConnection, connect
-from websockets.exceptions import ConnectionClosed, InvalidHandshake
 
 from app.shell.security import HEADERS, SCENE_POLICY
 from app.workers.live import Live
 from app.workers.looking_on import without_handle
 
-#: What is done with what a page says.
-Up = Callable[[WebSocket, ClientConnection], Awaitable[None]]
-_LARGEST = 50 << 20  # bytes of one frame, as viser has it
+_OTHER_VERSION, _GONE = 1002, 1001  # codes with which the scene's socket is closed
 #: The only thing a page may ask of the scene: a resolution that software can draw. `?websocket=` would point it away.
 _MAY_ASK = frozenset({"fixedDpr"})
 
@@ -55,60 +49,45 @@ def scene_page(request: Request) -> Response:
 
 
 async def scene_socket(page: WebSocket, live: Live) -> None:
-    """Frames both ways until either side is gone; awaiting each send is the back-pressure."""
-    await _bridged(page, live, _up, lambda frame: frame)
+    """A session's scene for its page, until either ends."""
+    await _shown(page, live, _Both(page))
 
 
 async def watch_scene(page: WebSocket, live: Live) -> None:
-    """Frames of a session's scene for somebody who looks on; of what his page says, nothing gets there."""
-    await _bridged(page, live, _nowhere, without_handle)
+    """A session's scene for somebody who looks on; of what his page says, nothing gets there."""
+    await _shown(page, live, _Down(page))
 
 
-async def _bridged(page: WebSocket, live: Live, up: Up, seen: Callable[[bytes], bytes]) -> None:
-    try:
-        scene = await connect(
-            f"ws://127.0.0.1:{live.scene_port}",
-            subprotocols=page.scope["subprotocols"],
-            compression=None,
-            max_size=_LARGEST,
-            origin=live.scene_origin,  # type: ignore[arg-type]
-            user_agent_header=None,
-            ping_interval=None,
-        )
-    except (OSError, InvalidHandshake):
-        await page.close(1013)
+class _Both:
+    """Frames as they are, both ways."""
+
+    def __init__(self, page: WebSocket):
+        self._page = page
+
+    async def send(self, frame: bytes, /) -> None:
+        await self._page.send_bytes(frame)
+
+    async def recv(self) -> bytes:
+        return await self._page.receive_bytes()
+
+
+class _Down(_Both):
+    """Frames without a handle, to the page alone."""
+
+    async def send(self, frame: bytes, /) -> None:
+        await super().send(without_handle(frame))
+
+    async def recv(self) -> bytes:
+        while True:
+            await super().recv()
+
+
+async def _shown(page: WebSocket, live: Live, frames: _Both) -> None:
+    if live.scene_protocol not in page.scope["subprotocols"]:  # a page of another version: it is loaded anew
+        await page.close(_OTHER_VERSION)
         return
-    async with scene:
-        await page.accept(subprotocol=scene.subprotocol)
-        await _both(lambda: up(page, scene), lambda: _down(page, scene, seen))
+    await page.accept(subprotocol=live.scene_protocol)
+    with contextlib.suppress(WebSocketDisconnect, RuntimeError, KeyError):  # gone, as pages go
+        await live.show(frames)
     with contextlib.suppress(RuntimeError, WebSocketDisconnect):  # the page may have closed first
-        await page.close(scene.close_code or 1001)
-
-
-async def _up(page: WebSocket, scene: ClientConnection) -> None:
-    while True:
-        await scene.send(await page.receive_bytes())
-
-
-async def _nowhere(page: WebSocket, scene: ClientConnection) -> None:
-    while True:
-        await page.receive_bytes()
-
-
-async def _down(page: WebSocket, scene: ClientConnection, seen: Callable[[bytes], bytes]) -> None:
-    async for frame in scene:
-        await page.send_bytes(seen(frame if isinstance(frame, bytes) else frame.encode()))
-
-
-async def _both(*ways: Callable[[], Awaitable[None]]) -> None:
-    """Runs until one ends; why it ended is of no interest: the other side is told by closing."""
-    tasks = [asyncio.ensure_future(way()) for way in ways]
-    try:
-        await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
-    finally:
-        for task in tasks:
-            task.cancel()
-        for outcome in await asyncio.gather(*tasks, return_exceptions=True):
-            known = (WebSocketDisconnect, ConnectionClosed, asyncio.CancelledError, RuntimeError, KeyError)
-            if isinstance(outcome, BaseException) and not isinstance(outcome, known):
-                raise outcome
+        await page.close(_GONE)

@@ -15,7 +15,8 @@ from app.errors import TeachframeError
 from app.kinematics import RobotModel
 from app.scene.camera import CLOSE_UPS, VIEWS
 from app.scene.client_page import client_page
-from app.scene.server import SECRET_ORIGIN, start_scene_server
+from app.scene.pages import Frames
+from app.scene.server import PROTOCOL, SceneServer
 from app.screens import screens
 from app.screens.context import Context
 from app.screens.look import Look
@@ -64,7 +65,7 @@ class Live:
         hints: Hints | None = None,
     ):
         self.session = session
-        self._server = start_scene_server()
+        self._server = SceneServer()
         self._listeners: set[Callable[[], None]] = set()
         self._lock = threading.Lock()
         self._downloads: dict[str, Download] = {}
@@ -79,15 +80,12 @@ class Live:
 
     # The scene --------------------------------------------------------------------------------------------
 
-    @property
-    def scene_port(self) -> int:
-        """Where the bridge finds the scene."""
-        return self._server.get_port()
+    #: What a page of the scene has to say it speaks.
+    scene_protocol = PROTOCOL
 
-    @property
-    def scene_origin(self) -> str:
-        """What the bridge has to say as its origin."""
-        return SECRET_ORIGIN
+    async def show(self, page: Frames) -> None:
+        """Shows the scene to a page until either ends; raises what the page's socket raises."""
+        await self._server.show(page)
 
     @staticmethod
     def scene_page() -> bytes:

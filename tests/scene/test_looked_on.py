@@ -1,38 +1,47 @@
 """Who only looks on gets no drag handle, and everything else as viser sends it."""
 
-import time
+import asyncio
+import contextlib
 
 import msgspec
 import numpy as np
 import pytest
 import zstandard
-from websockets.sync.client import connect
 
 from app.scene.looked_on import without_handle
-from app.scene.server import SECRET_ORIGIN, start_scene_server
-
-PROTOCOL = "viser-v1.1.1"
+from app.scene.server import SceneServer
 
 
 @pytest.fixture
 def server():
-    server = start_scene_server()
+    server = SceneServer()
     yield server
     server.stop()
 
 
-def frames(server, seconds=1.0):
+class Silent:
+    """A page that says nothing, and what came to it."""
+
+    def __init__(self):
+        self.frames = []
+
+    async def send(self, frame):
+        self.frames.append(frame)
+
+    async def recv(self):
+        await asyncio.Event().wait()
+
+
+def frames(server, seconds=0.3):
     """What viser sends to somebody who says nothing."""
-    out, end = [], time.monotonic() + seconds
-    with connect(
-        f"ws://127.0.0.1:{server.get_port()}", subprotocols=[PROTOCOL], origin=SECRET_ORIGIN, max_size=None
-    ) as socket:
-        while time.monotonic() < end:
-            try:
-                out.append(socket.recv(timeout=0.2))
-            except TimeoutError:
-                continue
-    return out
+    page = Silent()
+
+    async def look():
+        with contextlib.suppress(TimeoutError):
+            await asyncio.wait_for(server.show(page), seconds)
+
+    asyncio.run(look())
+    return page.frames
 
 
 def opened(frame):
