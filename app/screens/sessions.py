@@ -89,7 +89,9 @@ class _View:
             self._text.content = ""
             return
         listed, self._name.value = found
-        points, tool = summary(self._context.shelf.store.state(listed.name))
+        here = self._context.session
+        own = listed.name == here.name  # its state is at hand: nothing is played anew
+        points, tool = summary(here.state if own else self._context.shelf.store.state(listed.name))
         last = moment(listed.last, "%Y-%m-%d %H:%M:%S")
         rows = [
             (t("sessions.last"), last),
@@ -117,7 +119,7 @@ class _View:
 
     def _rename(self, title: str) -> None:
         context, listed = self._context, self._chosen
-        if listed.name not in context.shelf.owners.owned():
+        if listed.name in context.shelf.owners.nobodys():
             context.shelf.owners.give(listed.name, context.shelf.owner)
         context.shelf.owners.rename(listed.name, title)
         self._fill(listed.name)

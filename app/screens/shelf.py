@@ -45,15 +45,12 @@ class Shelf:
     def mine(self, most: int) -> list[tuple[Listed, str]]:
         """The person's sessions with their names, the newest first; and those that belong to nobody."""
         titles = self.owners.titles(self.owner)
-        return [
-            (listed, titles.get(listed.name, ""))
-            for listed in self.store.list()
-            if listed.name in titles or self._ownerless(listed.name)
-        ][:most]
+        listed = self.store.list(most, titles.keys() | self._nobodys())
+        return [(session, titles.get(session.name, "")) for session in listed]
 
     def may(self, name: str) -> bool:
         """True where the person may open, export, rename or delete a session."""
-        return name in self.owners.titles(self.owner) or self._ownerless(name)
+        return name in self.owners.titles(self.owner) or name in self._nobodys()
 
     def full(self) -> bool:
         """True where the person keeps as much as one person may."""
@@ -64,6 +61,6 @@ class Shelf:
         """Counts one more search; False where there were too many lately."""
         return Tries(self.store.database).count(SEARCHES, "search", self.owner)
 
-    def _ownerless(self, name: str) -> bool:
+    def _nobodys(self) -> set[str]:
         """Kept by a version that knew no owners: whoever is alone with his machine takes it over."""
-        return self.person is None and name not in self.owners.owned()
+        return self.owners.nobodys() if self.person is None else set()

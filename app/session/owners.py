@@ -12,7 +12,7 @@ import time
 
 from sqlalchemy import Column, Float, String, Table, delete, func, insert, select, update
 
-from app.session.database import ACTIONS, METADATA, Database
+from app.session.database import ACTIONS, METADATA, SESSIONS, Database
 
 OWNED = Table(
     "owned",
@@ -94,7 +94,9 @@ class Owners:
         with self._database.begin() as connection:
             return int(connection.execute(count).scalar_one()), int(connection.execute(size).scalar_one())
 
-    def owned(self) -> set[str]:
-        """Sessions that belong to somebody; what earlier versions kept belongs to nobody."""
+    def nobodys(self) -> set[str]:
+        """Sessions that belong to nobody: what earlier versions kept."""
+        left = SESSIONS.outerjoin(OWNED, OWNED.c.session == SESSIONS.c.name)
         with self._database.begin() as connection:
-            return set(connection.scalars(select(OWNED.c.session)))
+            found = select(SESSIONS.c.name).select_from(left).where(OWNED.c.session.is_(None))
+            return set(connection.scalars(found))

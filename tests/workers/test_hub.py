@@ -4,6 +4,7 @@ import time
 
 import numpy as np
 import pytest
+from sqlalchemy import event
 
 from app.session import Store
 from app.session.actions import ChooseRobot, Finish, Record, SetUserFrame
@@ -211,3 +212,36 @@ def test_coming_and_going_leaves_nothing_behind(hub):
         leave(hub, enter(hub))
     assert not hub.lives
     until(lambda: threading.active_count() <= before, "the threads to end", 10.0)
+
+
+def test_to_open_a_session_asks_as_little_of_the_database_in_a_class_as_alone(tmp_path):
+    store = Store(tmp_path)
+    hub = Hub(store, robot="ur10e")
+    asked = []
+    event.listen(store.database._engine, "before_cursor_execute", lambda *about: asked.append(about[2]))
+
+    def statements(secret):
+        enter(hub, secret)
+        before = len(asked)
+        hub.leave(owner_of(secret))
+        enter(hub, secret)
+        beats = sum("leases" in words for words in asked[before:])  # by the clock
+        return len(asked) - before - beats
+
+    alone = statements("first")
+    for number in range(30):
+        store.create(robot="ur10e").close()
+        hub.owners.give(store.names()[0], owner_of(f"other {number}"))
+    assert statements("last") == alone
+    hub.close()
+
+
+def test_the_list_shows_ones_own_and_what_is_nobodys(tmp_path):
+    store = Store(tmp_path)
+    hub = Hub(store, robot="ur10e")
+    mine, other = enter(hub, "me"), enter(hub, "another")
+    old = store.create(robot="ur10e").name
+    names = [listed.name for listed, _ in mine.live.context.shelf.mine(60)]
+    assert names == [old, mine.live.session.name] and other.live.session.name not in names
+    assert [listed.name for listed, _ in mine.live.context.shelf.mine(1)] == [old]
+    hub.close()
