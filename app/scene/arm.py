@@ -8,13 +8,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from functools import cache
 
 import numpy as np
 import viser
 
 from app.geometry.rotation import quaternion_from_rotation
-from app.kinematics import RobotModel, load_robot
+from app.kinematics import RobotModel
 from app.kinematics.shapes import Shape
 from app.kinematics.solids import Solid, faces, robot_solids, solids, tool_shapes
 
@@ -67,10 +66,10 @@ class ArmView:
             wxyz=tuple(quaternion_from_rotation(chain.flange_rotation)),
             position=tuple(chain.flange_translation),
         )
-        for index, (body, colour, vertices, triangles) in enumerate(_arm_meshes(robot)):
+        for index, (body, colour, vertices, triangles) in enumerate(arm_meshes(robot)):
             _add(scene, f"{paths[body]}/solid{index}", colour, vertices, triangles, ghost)
         if tool:
-            draw_shapes(scene, f"{self.flange_path}/tool_body", tool_shapes(robot), ghost=ghost)
+            draw_meshes(scene, f"{self.flange_path}/tool_body", merged(tool_shapes(robot)), ghost=ghost)
         self._q = np.zeros(robot.joint_count)
         self.set(robot.home)
 
@@ -106,31 +105,38 @@ class ArmView:
         self._root.remove()
 
 
-def draw_shapes(
+def draw_shapes(scene: viser.SceneApi, root: str, shapes: Sequence[Shape]) -> viser.FrameHandle:
+    """Draws shapes that stand still relative to the node `root`: a tool, a spike, a table."""
+    return draw_meshes(scene, root, merged(shapes))
+
+
+def draw_meshes(
     scene: viser.SceneApi,
     root: str,
-    shapes: Sequence[Shape],
+    meshes: Sequence[Mesh],
     *,
     ghost: bool = False,
     bend: Bend | None = None,
 ) -> viser.FrameHandle:
-    """Draws shapes that stand still relative to the node `root`: a tool, a spike, a table; bent, where wanted."""
+    """The same of shapes that were merged before; bent, where wanted."""
     frame = scene.add_frame(root, show_axes=False)
-    for index, (_, colour, vertices, triangles) in enumerate(_merged(solids(shapes))):
+    for index, (_, colour, vertices, triangles) in enumerate(meshes):
         if bend is not None:
             vertices = bend(vertices).astype(np.float32)
         _add(scene, f"{root}/solid{index}", colour, vertices, triangles, ghost)
     return frame
 
 
-@cache
-def shipped_meshes(name: str) -> tuple[Mesh, ...]:
-    """Meshes of a shipped robot, computed once for all browsers."""
-    return _merged(robot_solids(load_robot(name)))
+def arm_meshes(robot: RobotModel) -> tuple[Mesh, ...]:
+    """Meshes of an arm, worked out once for all who see it."""
+    if "meshes" not in robot.kept:
+        robot.kept["meshes"] = _merged(robot_solids(robot))
+    return robot.kept["meshes"]
 
 
-def _arm_meshes(robot: RobotModel) -> tuple[Mesh, ...]:
-    return shipped_meshes(robot.name) if robot.description else _merged(robot_solids(robot))
+def merged(shapes: Sequence[Shape]) -> tuple[Mesh, ...]:
+    """What `draw_meshes` draws of shapes."""
+    return _merged(solids(shapes))
 
 
 def _merged(parts: Sequence[Solid]) -> tuple[Mesh, ...]:

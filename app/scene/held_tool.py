@@ -8,12 +8,14 @@ millimetre.
 from __future__ import annotations
 
 import itertools
+from functools import lru_cache
 
 import numpy as np
 import viser
 
 from app.geometry import Pose
-from app.scene.arm import Bend, draw_shapes
+from app.kinematics import RobotModel
+from app.scene.arm import Bend, Mesh, draw_meshes, merged
 from app.simulation.held import held_shapes
 from app.simulation.world import World, default_tool
 from app.units import from_mm
@@ -35,7 +37,7 @@ class HeldTool:
         nominal, picture = default_tool(world.robot), world.picture
         self.bend = None if picture is None else bent(nominal, picture.T_flange_tool)
         self.path = f"{flange_path}/tool{next(_NUMBERS)}"  # a new name: the page keeps a removed node's pose
-        self._frame = draw_shapes(scene, self.path, held_shapes(world.robot), bend=self.bend)
+        self._frame = draw_meshes(scene, self.path, held_meshes(world.robot), bend=self.bend)
         self._at = np.zeros(3)
 
     def pose(self, q: np.ndarray, world: World) -> None:
@@ -51,6 +53,12 @@ class HeldTool:
     def remove(self) -> None:
         """Takes the drawing away."""
         self._frame.remove()
+
+
+@lru_cache(maxsize=16)
+def held_meshes(robot: RobotModel) -> tuple[Mesh, ...]:
+    """The tool in an arm's hand as its drawing says, worked out once for all who hold it."""
+    return merged(held_shapes(robot))
 
 
 def bent(T_flange_nominal: Pose, T_flange_drawn: Pose) -> Bend:

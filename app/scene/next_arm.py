@@ -8,8 +8,8 @@ import numpy as np
 import viser
 
 from app.kinematics import RobotModel
-from app.scene.arm import ArmView, draw_shapes
-from app.simulation.held import held_shapes
+from app.scene.arm import ArmView, draw_meshes
+from app.scene.held_tool import held_meshes
 
 _NUMBERS = itertools.count(1)
 _SAME = 0.01  # rad or m: closer than this the ghost would only blur the arm
@@ -41,7 +41,7 @@ class NextArm:
                 root = f"/next{next(_NUMBERS)}"
                 self._view = ArmView(self._scene, self._robot, root=root, ghost=True, tool=False)
                 tool = f"{self._view.flange_path}/tool"
-                draw_shapes(self._scene, tool, held_shapes(self._robot), ghost=True)
+                draw_meshes(self._scene, tool, held_meshes(self._robot), ghost=True)
             self._view.set(self._q)
             if words:
                 self._label = self._scene.add_label(

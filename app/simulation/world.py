@@ -177,8 +177,10 @@ def _faulty_flange(world: World, q: bytes) -> Pose:
     return true_flange(world.robot, np.frombuffer(q), world.faults, world.row, world.load)
 
 
+@lru_cache(maxsize=64)
 def default_world(robot: RobotModel) -> World:
-    """The practice cell of an arm: its own tool, a spike within easy reach, a table under it."""
+    """The practice cell of an arm: its own tool, a spike within easy reach, a table under it. One for all who work in
+    it: what is drawn of it and hit in it is worked out once."""
     cell = robot.description.get("cell", {})
     spike = cell.get("spike_mm")
     p_base_spike = from_mm(np.array(spike, float)) if spike is not None else np.array(_ahead(robot))
