@@ -66,7 +66,7 @@ class Words:
         self._entrance, self._visitor, self._heard = entrance, visitor, False
         self._news = asyncio.Event()
         self._given: set[str] = set()
-        self._language = ""
+        self._look: object = None  # as the page was told
 
     async def run(self) -> None:
         """Until the page is gone, or another page takes the session over."""
@@ -179,9 +179,9 @@ class Words:
                 continue
 
     async def _greet(self) -> None:
-        language = self._live.context.look.written()
-        if language != self._language:
-            self._language = language
+        look = self._live.context.look
+        if look != self._look:
+            self._look = look
             person = self._visitor.person
             name = "" if person is None else person.name
             beside = "" if person is None else "lessons" if person.role == "trainee" else "classes"

@@ -29,6 +29,7 @@ if TYPE_CHECKING:
 #: Modes whose tool point comes from fewer touches than this do not gain by the orientations of the touches.
 _LEAST = 3
 _WRIST = 3  # joints
+_HERE = "{here}"
 #: Held by whoever works one out: threads that reckon at once only take turns, and each turn keeps the stop waiting.
 _ONE = threading.Lock()
 
@@ -51,7 +52,7 @@ class NextTouch:
         self._step: Step | None = None
         self.proposal: Proposal | None = None
         self._refused = ""
-        self._closed = False
+        self._closed, self._written = False, ""
 
     def explain(self) -> None:
         """What a touch would bring stands here: below the keys, which are pressed every time."""
@@ -70,7 +71,7 @@ class NextTouch:
             a is b or a == b for a, b in zip(asked, self._asked, strict=True)
         ):
             return
-        self._asked, self._step = asked, step
+        self._asked, self._step, self._written = asked, step, ""
         self._made = np.array([c.T_base_flange.rotation for c in touches]).reshape(-1, 3, 3)
         self.proposal, self._refused = None, ""
         self._lines.visible = self._go.visible = self._go.disabled = True
@@ -80,7 +81,7 @@ class NextTouch:
     def numbers(self) -> None:
         """The arm moved: what a touch as it stands now would bring."""
         if self._step is not None:
-            self._lines.content = self._table()
+            self._lines.content = self._table().replace(_HERE, self._here())
 
     def go(self) -> None:
         """The arm goes where the ghost stands."""
@@ -143,6 +144,7 @@ class NextTouch:
                 said = found.said
                 self._refused = said.text(context.language) if isinstance(said, Phrase) else str(found)
                 context.stage.next_arm.show(None)
+            self._written = ""
             self._go.disabled = self.proposal is None
             self.numbers()
 
@@ -156,16 +158,25 @@ class NextTouch:
     def _title(self) -> str:
         return self._words.step(self._step).title if self._step is not None else ""
 
+    def _here(self) -> str:
+        """What a touch as the arm stands now would bring."""
+        here = np.concatenate([self._made, self._context.model.forward(self._context.q).rotation[None]])
+        return self._length(predicted_error(here))
+
     def _table(self) -> str:
+        """The lines, with a mark where what changes with every move stands: written once a proposal."""
+        self._written = self._written or self._write()
+        return self._written
+
+    def _write(self) -> str:
         t, found = self._context.t, self.proposal
         if self._refused:
             return html.paragraph(self._refused, testid="next-touch")
         if found is None:
             return html.paragraph(t("tool.next_busy"), testid="next-touch", faint=True)
-        here = np.concatenate([self._made, self._context.model.forward(self._context.q).rotation[None]])
         rows = [
             (t("tool.next_now"), self._length(found.now)),
-            (t("tool.next_here"), self._length(predicted_error(here))),
+            (t("tool.next_here"), _HERE),
             (t("tool.next_best"), self._length(found.after)),
         ]
         if len(found.following):

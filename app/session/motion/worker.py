@@ -6,6 +6,7 @@ told to the operator; it never ends the worker.
 
 from __future__ import annotations
 
+import functools
 import threading
 import time
 from collections import deque
@@ -157,20 +158,26 @@ class Worker:
             now = time.monotonic()
             if self._motions and now >= next_tick:
                 with _TICKING:
-                    for name, steps in list(self._motions.items()):
-                        self._around(lambda name=name, steps=steps: self._advance(name, steps))
+                    self._around(self._tick)
                 next_tick = max(next_tick + max(1.0 / TICK_HZ, len(_MOVING) / TOGETHER_HZ), now)
             with self._wake:
                 self._busy = False
 
-    def _advance(self, name: str, steps: Iterator[None]) -> None:
-        try:
-            next(steps)
-        except StopIteration:
-            self._end(name, steps)
-        except Exception:
-            self._end(name, steps)
-            raise
+    def _tick(self) -> None:
+        """One step of each motion; what fails is told when all have had theirs."""
+        failed: list[Exception] = []
+        for name, steps in list(self._motions.items()):
+            try:
+                next(steps)
+            except StopIteration:
+                self._end(name, steps)
+            except Exception as error:
+                self._end(name, steps)
+                failed.append(error)
+        for error in failed[1:]:
+            self._around(functools.partial(_raise, error))
+        if failed:
+            raise failed[0]
 
     def _end(self, name: str, steps: Iterator[None]) -> None:
         """Forgets a motion unless another has taken its name meanwhile."""
@@ -183,3 +190,7 @@ class Worker:
         """Motions were taken away: without any this arm takes no share of the ticks."""
         if not self._motions:
             _MOVING.discard(self)
+
+
+def _raise(error: Exception) -> None:
+    raise error

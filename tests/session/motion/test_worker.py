@@ -99,6 +99,30 @@ def test_a_motion_that_fails_is_forgotten_and_told(worker):
     assert "in the middle" in str(worker.failed[0])
 
 
+def test_of_motions_that_fail_at_one_tick_each_is_told_and_the_others_go_on(worker):
+    ticks = []
+
+    def fails(words):
+        yield
+        raise ValueError(words)
+
+    def runs():
+        while True:
+            ticks.append(1)
+            yield
+
+    def begin():
+        for name, steps in (("one", fails("one")), ("other", fails("other")), ("runs", runs())):
+            worker.animate(name, steps)
+
+    worker.post(begin)
+    until = time.monotonic() + 5.0
+    while (len(worker.failed) < 2 or len(ticks) < 5) and time.monotonic() < until:
+        time.sleep(0.01)
+    assert sorted(map(str, worker.failed)) == ["one", "other"]
+    assert worker.running("runs") and not worker.running("one") and not worker.running("other")
+
+
 def test_a_new_motion_replaces_the_one_before(worker):
     done = []
 
