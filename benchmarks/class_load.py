@@ -5,7 +5,8 @@ Run: python -m benchmarks class_load; longer: python -m benchmarks.class_load TR
 
 Each trainee holds switch and button, jogs, records a point, deletes it again, over the network, with the scene's socket
 open, and looks on between two doings as a learner does: a burst of 0.6 s every five seconds or so. Figures of a run in
-which workers are killed hold the waits for another worker apart from the round trips.
+which workers are killed hold the waits for another worker apart from the round trips. The trainees' own program takes a
+share of the same cores, which is said beside that of front and workers.
 """
 
 from __future__ import annotations
@@ -25,7 +26,7 @@ from typing import Any
 import numpy as np
 from websockets.exceptions import WebSocketException
 
-from benchmarks._page import Page, enter
+from benchmarks._page import Page, enter, processor_of
 from benchmarks.rows import Row
 from tests.shell.started import Started
 
@@ -131,7 +132,8 @@ def run(
         folder.mkdir()
         server, tally = Started(folder, "--workers", str(workers)), Tally()
         try:
-            kills = asyncio.run(_class(server, tally, trainees, seconds, kill_every))
+            spent = Spent(server)
+            kills = asyncio.run(_class(server, tally, trainees, seconds, kill_every, spent))
             loaded = os.getloadavg()[0]
             server.stop()
         finally:
@@ -146,11 +148,38 @@ def run(
         Row(f"{what}: buttons without an answer in {_PATIENCE:g} s", tally.errors, unit=""),
         Row(f"{what}: until a killed worker's people go on, p50", float(np.percentile(back, 50))),
         Row(f"{what}: until a killed worker's people go on, longest", float(np.max(back))),
+        Row(f"{what}: processor of front and workers", spent.served / seconds, unit="cores"),
+        Row(f"{what}: processor of the trainees' own program", spent.own / seconds, unit="cores"),
         Row(f"{what}: load of the machine", loaded, unit=""),
     ]
 
 
-async def _class(server: Started, tally: Tally, trainees: int, seconds: float, kill_every: float) -> int:
+class Spent:
+    """Processor time from now on: of this program, and of front and workers, those that are killed included."""
+
+    def __init__(self, server: Started):
+        self._server, self._begun, self.served = server, time.process_time(), 0.0
+        self._seen: dict[int, float] = {}
+        self.look()
+        self.served = 0.0
+
+    @property
+    def own(self) -> float:
+        """Seconds of this program."""
+        return time.process_time() - self._begun
+
+    def look(self) -> None:
+        """Adds what was spent since the last look; one who will be killed is looked at just before."""
+        for process in (self._server.process.pid, *self._server.workers()):
+            with suppress(FileNotFoundError):
+                spent = processor_of(process)
+                self.served += spent - self._seen.get(process, 0.0)
+                self._seen[process] = spent
+
+
+async def _class(
+    server: Started, tally: Tally, trainees: int, seconds: float, kill_every: float, spent: Spent
+) -> int:
     people = [Trainee(server, tally) for _ in range(trainees)]
     begun = time.perf_counter()
     end = begun + seconds
@@ -158,11 +187,13 @@ async def _class(server: Started, tally: Tally, trainees: int, seconds: float, k
     kills = 0
     while kill_every and time.perf_counter() + kill_every < end:
         await asyncio.sleep(kill_every)
+        spent.look()
         serving = server.workers()
         if serving:
             os.kill(serving[kills % len(serving)], signal.SIGKILL)
             kills += 1
     await asyncio.gather(*tasks)
+    spent.look()
     return kills
 
 
