@@ -70,6 +70,8 @@ class Hub:
         self._people: dict[str, Person | None] = {}  # owner -> who he is
         self._pages: dict[str, object] = {}  # session -> the page that shows it
         self._timers: dict[str, threading.Timer] = {}
+        self._doors = [threading.Lock() for _ in range(MOST_LIVE)]
+        self._coming: set[str] = set()  # sessions that are being opened
         self._closed = False
         self.attending = Attending(
             self.room, lambda: self.lives, lambda live: live.session.name in self._pages
@@ -89,18 +91,25 @@ class Hub:
         live = self.find(owner)
         if live is not None:
             return live
-        name = self.owners.latest(owner)
-        if name is not None:
-            self._leases.take(name)  # may take seconds, in which others come and go
-        with self._lock:
+        # One at a time for each person. Others wait for neither his disk nor his lease: after a process was killed
+        # all of its people come at once.
+        with self._door(owner):
             if self._closed:
                 raise RuntimeError("the server is stopping")
-            live = self._live.get(self._at.get(owner, ""))
+            live = self.find(owner)
             if live is not None:
                 return live
-            session, how = self._session(owner, name)
-            self._people[owner] = person
-            live = self._open(session, owner, Look.from_cookie(look))
+            name = self.owners.latest(owner)
+            with self._lock:
+                self._coming.add(name or "")
+            try:
+                session, how = self._session(owner, name)
+                with self._lock:
+                    self._people[owner] = person
+                live = self._open(session, owner, Look.from_cookie(look))
+            finally:
+                with self._lock:
+                    self._coming.discard(name or "")
             live.greet(how)
             return live
 
@@ -168,16 +177,18 @@ class Hub:
             live.close()
             self._leases.let(live.session.name)
 
+    def _door(self, owner: str) -> threading.Lock:
+        """Held by whoever opens a session for this person."""
+        return self._doors[hash(owner) % len(self._doors)]
+
     def _session(self, owner: str, name: str | None) -> tuple[Session, str]:
         how = "new"
         self.arms.grant(owner)
         if name is not None:
-            self._leases.take(name)  # held already, unless it was let go in the meantime
+            self._leases.take(name)  # may take seconds
         if name is not None and self.store.has(name):
             try:
-                session = self.store.open(name, leases=self._leases)
-                self.owners.opened(name)
-                return session, "back"
+                return self.store.open(name, leases=self._leases), "back"  # the one opened last still is
             except TeachframeError:
                 how = "lost"
         session = self.store.create(robot=self._robot, leases=self._leases)
@@ -198,12 +209,19 @@ class Hub:
             tuple if person is None else lambda: self._lessons(person.id),
         )
         live = Live(session, shelf, self._usual_world, look, self.room.hints)
-        self._live[session.name] = live
-        self._at[owner] = session.name
-        if self._unvisited is not None:  # who asks for the page and never comes in keeps no session open
-            self._forget_in(self._unvisited, session.name)
-        self._make_room()
-        return live
+        with self._lock:
+            if not self._closed:
+                self._live[session.name] = live
+                self._at[owner] = session.name
+                if (
+                    self._unvisited is not None
+                ):  # who asks for the page and never comes in keeps no session open
+                    self._forget_in(self._unvisited, session.name)
+                self._make_room()
+                return live
+        live.close()
+        self._leases.let(session.name)
+        raise RuntimeError("the server is stopping")
 
     def _lessons(self, person: str) -> list[Lesson]:
         return [lesson for _, lessons in self.room.lessons_of(person) for lesson in lessons]
@@ -229,7 +247,7 @@ class Hub:
         except TeachframeError as error:
             _LOG.warning("session %s was not opened: %s", name, error)
             return
-        with self._lock:
+        with self._door(owner), self._lock:
             before = self._live.get(self._at.get(owner, ""))
             if self._closed or name in self._live:
                 return
@@ -254,7 +272,7 @@ class Hub:
             return
         live.close()
         with self._lock:
-            if name not in self._live:  # nobody came back while it closed
+            if name not in self._live and name not in self._coming:  # nobody came back while it closed
                 self._leases.let(name)
 
     def _beat(self) -> None:
