@@ -6,8 +6,7 @@ at any moment leaves whole actions only, and all those that were confirmed. Post
 
 from __future__ import annotations
 
-import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -18,14 +17,13 @@ from sqlalchemy.exc import ArgumentError, IntegrityError, NoSuchModuleError, SQL
 from app.errors import ConflictError, InputError, StorageError, one_line
 from app.session import sqlite_file
 from app.session.migrations import upgrade
+from app.session.together import Together
 
 FILE = "teachframe.sqlite"
 #: Drivers for URLs that name only the kind of database.
 _DRIVERS = {"postgresql": "postgresql+psycopg", "postgres": "postgresql+psycopg"}
 _BUSY = 5.0  # seconds another program may hold the file or the table before an action fails: a person waits for it
 _ANSWER = 10  # whole seconds a database server has to answer when it is first spoken to
-
-_TURN, _READS = "turn", ("SELECT", "PRAGMA")
 
 #: All tables, those of layers above too; `migrations` makes them.
 METADATA = MetaData()
@@ -66,7 +64,8 @@ class Database:
             address = address.update_query_dict({"connect_timeout": str(_ANSWER)})
         options = {"connect_args": {"timeout": _BUSY}} if lite else {"pool_pre_ping": True}
         try:
-            self._engine, self._writing = create_engine(address, **options), threading.Lock()
+            self._engine = create_engine(address, **options)
+            self._together = Together(lambda: self.begin())
             if lite:
                 sqlite_file.prepare(Path(str(address.database)))
                 event.listen(self._engine, "connect", _durable)
@@ -74,8 +73,6 @@ class Database:
                 event.listen(self._engine, "connect", _patient)
             with self._engine.begin() as connection:
                 upgrade(connection, self.name)
-            if lite:
-                event.listen(self._engine, "before_cursor_execute", self._take_turn)
         except ModuleNotFoundError as error:
             raise InputError(
                 f"{self.name} needs the package {error.name}",
@@ -108,37 +105,22 @@ class Database:
         Raises:
             StorageError: the database did not take or give it.
         """
-        turn: dict[object, object] = {}
         try:
             with self._engine.begin() as connection:
-                turn = connection.info
                 yield connection
         except IntegrityError:
             raise ConflictError("another program writes to the same session") from None
         except SQLAlchemyError as error:
             raise StorageError(f"{self.name} did not keep this ({_said(error)})") from None
-        finally:
-            if turn.pop(_TURN, None):
-                self._writing.release()
 
-    def _take_turn(
-        self,
-        connection: Connection,
-        _cursor: object,
-        statement: str,
-        _rows: object,
-        _context: object,
-        _many: bool,
-    ) -> None:
-        """Before the first statement that writes: one thread of a process at a time asks SQLite for its one lock.
+    def write(self, job: Callable[[Connection], None]) -> None:
+        """Does `job` in a transaction, perhaps with others' jobs: a commit is shared by all who wait for one.
 
-        Who waits there looks again every tenth of a second and is passed by all who come just in time: of fifty
-        sessions that write beside three other processes some did not get it in five seconds. Here they wait in a row.
+        Raises:
+            ConflictError: another program writes there; the others' jobs are kept.
+            StorageError: the database did not take it.
         """
-        if _TURN in connection.info or statement.lstrip()[:6].upper() in _READS:
-            return
-        if self._writing.acquire(timeout=_BUSY):
-            connection.info[_TURN] = True
+        self._together.write(job)
 
     def close(self) -> None:
         """Lets go of all connections."""

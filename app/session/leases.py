@@ -121,11 +121,11 @@ def check_held(connection: Connection, session: str, worker: str) -> None:
     """Asked after a row was written and before it is kept: until then nobody else can take the session.
 
     Raises:
-        StorageError: another process has it.
+        ConflictError: another process has it.
     """
     holder = select(LEASES.c.worker).where(LEASES.c.session == session).with_for_update(read=True)
     if connection.execute(holder).scalar() != worker:
-        raise StorageError("this session is open elsewhere now")
+        raise ConflictError("this session is open elsewhere now")
 
 
 def _mine(session: str, worker: str):

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import msgspec
 import platformdirs
-from sqlalchemy import delete, func, insert, select
+from sqlalchemy import Connection, delete, func, insert, select
 
 from app.errors import FileFormatError, InputError, StorageError, TeachframeError, UnknownNameError
 from app.session.actions import AnyAction
@@ -222,14 +222,17 @@ class _Journal:
             raise StorageError(f"this session is full ({MOST_ACTIONS} actions); begin another one")
         entry = Entry(self._count + 1, round(time.time(), 3), action)
         row, doubtful = _row(self.recorded.header.session, entry), self._doubtful
+
+        def kept(connection: Connection) -> None:
+            if doubtful is not None:
+                same = [column == doubtful[column.name] for column in ACTIONS.columns]
+                connection.execute(delete(ACTIONS).where(*same))
+            connection.execute(insert(ACTIONS), row)
+            if self._leases is not None:
+                check_held(connection, self.recorded.header.session, self._leases.me)
+
         try:
-            with self._database.begin() as connection:
-                if doubtful is not None:
-                    same = [column == doubtful[column.name] for column in ACTIONS.columns]
-                    connection.execute(delete(ACTIONS).where(*same))
-                connection.execute(insert(ACTIONS), row)
-                if self._leases is not None:
-                    check_held(connection, self.recorded.header.session, self._leases.me)
+            self._database.write(kept)
         except StorageError:
             self._doubtful = row
             raise
