@@ -8,7 +8,6 @@ import multiprocessing
 import os
 import tempfile
 import time
-import urllib.request
 from importlib.metadata import version
 from multiprocessing.connection import Connection
 from pathlib import Path
@@ -138,13 +137,35 @@ class Page:
             pass
 
 
+async def _cookie(port: int, cookie: str) -> str:
+    """Asks for the page, on the loop: threads of a pool would let six people in at a time, however fast the server is.
+    Raises ConnectionResetError where it is not given."""
+    reader, writer = await asyncio.open_connection("127.0.0.1", port)
+    try:
+        with_cookie = f"Cookie: {cookie}\r\n" if cookie else ""
+        writer.write(
+            f"GET / HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\n{with_cookie}Connection: close\r\n\r\n".encode()
+        )
+        head, _, _ = (await reader.read()).decode("utf-8", "replace").partition("\r\n\r\n")
+    finally:
+        writer.close()
+    first, *lines = head.split("\r\n")
+    given = [line.partition(":")[2].strip() for line in lines if line.lower().startswith("set-cookie:")]
+    if " 200 " not in f"{first} " or not given:
+        raise ConnectionResetError(first)
+    return given[0].partition(";")[0]
+
+
 async def enter(served: Any, cookie: str = "") -> Page:
     """A page that has come up; raises ConnectionResetError where the server ends before."""
-    asked = urllib.request.Request(served.address, headers={"Cookie": cookie} if cookie else {})
-    with await asyncio.to_thread(urllib.request.urlopen, asked) as answer:
-        cookie = answer.headers["Set-Cookie"].split(";")[0]
+    cookie = await _cookie(served.port, cookie)
     address = f"ws://127.0.0.1:{served.port}"
-    named: Any = {"origin": served.address, "additional_headers": {"Cookie": cookie}, "max_size": None}
+    named: Any = {
+        "origin": served.address,
+        "additional_headers": {"Cookie": cookie},
+        "max_size": None,
+        "open_timeout": None,
+    }
     words = await connect(f"{address}/words", **named)
     protocol: Any = f"viser-v{version('viser')}"
     scene = await connect(f"{address}/scene", subprotocols=[protocol], compression=None, **named)

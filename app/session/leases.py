@@ -13,9 +13,10 @@ import os
 import secrets
 import socket
 import time
+from collections.abc import Sequence
 from pathlib import Path
 
-from sqlalchemy import Column, Connection, Integer, String, Table, delete, insert, select, update
+from sqlalchemy import Column, Connection, Integer, Row, String, Table, delete, insert, select, update
 
 from app.errors import ConflictError, StorageError
 from app.session.database import METADATA, Database
@@ -111,9 +112,14 @@ class Leases:
             StorageError: the database does not answer.
         """
         mine = LEASES.c.worker == self.me
-        with self._database.begin() as connection:
+        rows: Sequence[Row] = ()
+
+        def beat(connection: Connection) -> None:
+            nonlocal rows
             connection.execute(update(LEASES).where(mine).values(beat=LEASES.c.beat + 1))
             rows = connection.execute(select(LEASES.c.session, LEASES.c.wanted).where(mine)).all()
+
+        self._database.write(beat)
         return {row.session for row in rows}, {row.session for row in rows if row.wanted}
 
 

@@ -163,6 +163,11 @@ class Shell:
         await Words(page, live, self.hub, self._entrance, visitor).run()
 
     async def _enter(self, asked: HTTPConnection, visitor: Visitor) -> Live:
+        live = self.hub.find(visitor.owner)
+        if (
+            live is not None
+        ):  # its page's sockets wait for no thread behind those whose sessions are still to be opened
+            return live
         look = asked.cookies.get(LOOK_COOKIE)
         return await asyncio.to_thread(self.hub.enter, visitor.owner, look, visitor.person)
 
