@@ -31,7 +31,8 @@ def kept(database):
 
 def at_once(database, jobs):
     """Writes while another holds the turn; what each raised, and how many transactions there were."""
-    begin, count, raised = database.begin, [], [None] * len(jobs)
+    begin, count = database.begin, []
+    raised: list[StorageError | None] = [None] * len(jobs)
 
     @contextmanager
     def counted():
