@@ -72,7 +72,10 @@ def _part(path: Path, size: int, how: str, draw: random.Random) -> Iterator[Part
         first, second = Path(folder) / "learnt.csv", Path(folder) / "rest.csv"
         for file, rows in ((first, learnt), (second, rest)):
             file.write_text("\n".join([*comments, heads, *rows]) + "\n", encoding="utf-8")
-        there, aside = carried(calibrate([first]), second)
+        try:
+            there, aside = carried(calibrate([first]), second)
+        except ValueError:  # not one row is near any arm of this kind
+            return
         peer = min(float(mm(e.heldout)) for e in there.values())
         ours = judged(learn([first]), second, aside)
     if peer < POOR_MM:
