@@ -3,13 +3,9 @@
 from __future__ import annotations
 
 import re
-from dataclasses import replace
 from functools import cache
 
 from app.diagnosis.report.budget import (
-    SMALL_AMOUNT,
-    Budget,
-    Step,
     budget,
     budget_sentence,
     unexplained_sentence,
@@ -33,24 +29,12 @@ PANEL_WIDTH = 340.0
 
 def share_of_families(diagnosis: Diagnosis, language: str = FALLBACK) -> str:
     """The error budget: the sentence, and the bar with its legend; "" where no families were measured."""
-    drawn = budget_bar(seen(budget(diagnosis), language), language, width=PANEL_WIDTH)
+    drawn = budget_bar(budget(diagnosis), language, width=PANEL_WIDTH)
     if not drawn:
         return ""
     sentence = html.paragraph(budget_sentence(diagnosis, language), testid="compare-budget", strong=True)
     left = unexplained_sentence(diagnosis, language)
     return sentence + _framed(drawn, "compare-budget-bar", language) + (html.paragraph(left) if left else "")
-
-
-def seen(of: Budget, language: str = FALLBACK) -> Budget:
-    """The budget with the families that nobody sees in a bar of this width as one, where there are several."""
-    small = [step for step in of.steps if 0.0 < step.amount < SMALL_AMOUNT * of.total]
-    if len(small) < 2:
-        return of
-    # A family without a word of its own is called by its key.
-    name = text("compare.budget_small", language, count=len(small))
-    amount = sum(step.amount for step in small)
-    steps = [step for step in of.steps if step not in small]
-    return replace(of, steps=(*steps, Step(name, amount, of.rest, 0.0)))
 
 
 def _legend(language: str, *, found: bool, measured: bool = False) -> str:

@@ -8,7 +8,15 @@ import numpy as np
 import pytest
 
 from app.diagnosis.report import as_page, as_text
-from app.diagnosis.report.budget import budget, budget_sentence, law_share, percent, unexplained_sentence
+from app.diagnosis.report.budget import (
+    Budget,
+    Step,
+    budget,
+    budget_sentence,
+    law_share,
+    percent,
+    unexplained_sentence,
+)
 from app.diagnosis.report.drawing.budget_bar import budget_bar
 from app.diagnosis.report.drawing.joint_bars import joint_bars
 from app.diagnosis.report.wording import measure
@@ -148,3 +156,14 @@ def test_a_finding_whose_share_was_measured_has_it_whatever_others_take_over_of_
     taken_over = dataclasses.replace(compliance(), heldout_rms_without=0.0601, heldout_rms_with=0.06)
     assert law_share(taken_over, arm_off_everywhere()) < 0.01
     assert law_share(dataclasses.replace(taken_over, share=0.19), arm_off_everywhere()) == 0.19
+
+
+def test_families_that_nobody_sees_in_the_bar_are_one_entry_of_its_legend():
+    amounts = {"zeros": 3.0, "geometry": 0.5, "play": 0.02, "events": 0.03, "couplings": 0.0}
+    steps = tuple(Step(family, amount, 0.0, 0.1) for family, amount in amounts.items())
+    whole = Budget(sum(amounts.values()) + 1.0, "mm", steps, 1.0)
+    drawn = budget_bar(whole)
+    labels = re.findall(r">([^<>]+)</text>", drawn)
+    assert "2 others 0.050" in labels and "joint zeros 3.0" in labels
+    alone = budget_bar(Budget(whole.total, "mm", steps[:3], 1.0))
+    assert "others" not in alone and ">play 0.020<" in alone  # one of them keeps its name

@@ -6,7 +6,6 @@ import time
 import numpy as np
 import pytest
 
-from app.diagnosis.report.budget import Budget, Step
 from app.kinematics import load_robot
 from app.screens._compare import plots
 from app.screens._compare.ghost import joints_for_point
@@ -96,17 +95,6 @@ def test_a_trace_marks_the_shown_moment_and_the_contact():
     case = motion_case()
     picture = plots.trace(case.evidence, 1, case, 6.0)
     assert 'class="now"' in picture and 'class="window"' in picture
-
-
-def test_families_that_nobody_sees_in_the_bar_are_one_entry_of_its_legend():
-    amounts = {"zeros": 3.0, "geometry": 0.5, "play": 0.02, "events": 0.03, "couplings": 0.0}
-    steps = tuple(Step(family, amount, 0.0, 0.1) for family, amount in amounts.items())
-    whole = Budget(sum(amounts.values()) + 1.0, "mm", steps, 1.0)
-    shown = plots.seen(whole, "en")
-    assert [s.family for s in shown.steps if s.amount > 0] == ["zeros", "geometry", "2 others"]
-    assert sum(s.amount for s in shown.steps) == pytest.approx(sum(amounts.values()))
-    alone = Budget(whole.total, "mm", steps[:3], 1.0)
-    assert plots.seen(alone, "en") is alone  # one of them keeps its name
 
 
 def test_the_two_colours_are_named_beside_the_bars():

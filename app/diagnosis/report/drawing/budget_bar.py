@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from app.diagnosis.report.budget import Budget, family_name
+from app.diagnosis.report.budget import SMALL_AMOUNT, Budget, family_name
 from app.diagnosis.report.drawing import svg
 from app.diagnosis.report.drawing.palette import LIGHT, NOISE, colour
 from app.diagnosis.report.wording import digits, measure
@@ -51,9 +51,21 @@ def budget_bar(of: Budget, language: str = FALLBACK, *, width: float = WIDTH) ->
             )
         x += wide
     across = max(int(width // COLUMN), 1)
-    for k, (family, amount, fill) in enumerate(parts):
+    listed = _legend(parts, of, language)
+    for k, (said, fill) in enumerate(listed):
         x, y = k % across * width / across, TOP + BAR + LINE * (1 + k // across)
         out.append(svg.tag("rect", x=x, y=y - 9, width=11, height=11, rx=2, fill=fill))
-        out.append(svg.text(x + 16, y, f"{family_name(family, language)} {digits(amount, 2)}", klass="label"))
-    y = TOP + BAR + LINE * (1 + (len(parts) - 1) // across)
+        out.append(svg.text(x + 16, y, said, klass="label"))
+    y = TOP + BAR + LINE * (1 + (len(listed) - 1) // across)
     return svg.picture(width, y + 7, out, WORDS.text("budget.picture", language))
+
+
+def _legend(parts: list[tuple[str, float, str]], of: Budget, language: str) -> list[tuple[str, str]]:
+    """Words and colour of each part; families that nobody sees in the bar are one entry, where there are several."""
+    small = [p for p in parts if p[0] != REST and p[1] < SMALL_AMOUNT * of.total]
+    small = small if len(small) > 1 else []
+    out = [(f"{family_name(p[0], language)} {digits(p[1], 2)}", p[2]) for p in parts if p not in small]
+    if small:
+        amount = digits(sum(p[1] for p in small), 2)
+        out.insert(-1, (f"{WORDS.text('budget.small', language, count=len(small))} {amount}", small[0][2]))
+    return out
