@@ -165,14 +165,7 @@ def _predicted(found: Description, parts: list[tuple[str, Term]]) -> np.ndarray:
 def heldout_after(found: Description, kept: np.ndarray) -> dict[str, float]:
     """Family -> held-out error [mm] of a model with it and all families before it, refitted at the learnt widths."""
     linear, recording = found.linear, found.state.recording
-    size = linear.state.weights.size
-    precision: dict[int, float] = {}
-    for g, gamma in found.selection.items():
-        for number in linear.members[g]:
-            precision[number] = min(precision.get(number, np.inf), 1.0 / gamma)
-    response = linear.state.white.copy()
-    for term in linear.state.terms:
-        response += term.effect.columns(linear.sensitivity, term.place).reshape(size, -1) @ term.values
+    precision, response = found.precisions(), found.response()
     fold = np.repeat(folds_of(recording.pose), linear.state.weights.shape[1])
     scale = np.where(linear.state.weights > 0, linear.state.weights, 1.0).reshape(-1)
     counted = (recording.present & ~recording.angular & kept[:, None]).reshape(-1)

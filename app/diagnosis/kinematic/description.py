@@ -55,3 +55,18 @@ class Description:
         for g in self.selection:
             inside.update(dict.fromkeys(self.linear.members[g]))
         return list(inside)
+
+    def precisions(self) -> dict[int, float]:
+        """Candidate that is in -> prior precision of its weights [nominal sizes]: its own or its family's, the less."""
+        out: dict[int, float] = {}
+        for g, gamma in self.selection.items():
+            for number in self.linear.members[g]:
+                out[number] = min(out.get(number, np.inf), 1.0 / gamma)
+        return out
+
+    def response(self) -> np.ndarray:
+        """(N,) whitened: what base, tool and touched points leave, the terms of the state put back."""
+        linear, out = self.linear, self.linear.state.white.copy()
+        for term in linear.state.terms:
+            out += term.effect.columns(linear.sensitivity, term.place).reshape(len(out), -1) @ term.values
+        return out

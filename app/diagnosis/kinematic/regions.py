@@ -34,33 +34,19 @@ def local(found: Description, kept: np.ndarray) -> bool:
     Args:
         kept: (m,) False for rows that are set aside.
     """
-    linear, recording = found.linear, found.state.recording
-    size = linear.state.weights.size
-    precision: dict[int, float] = {}
-    for g, gamma in found.selection.items():
-        for number in linear.members[g]:
-            precision[number] = min(precision.get(number, np.inf), 1.0 / gamma)
-    of = linear.library.fixed
+    linear, of, precision = found.linear, found.library.fixed, found.precisions()
     lower = [n for n in precision if of[n].effect.level == Level.CALIBRATION]
     upper = [n for n in precision if of[n].effect.level != Level.CALIBRATION]
     if not lower or not upper:
         return False
-    response = linear.state.white.copy()
-    for term in linear.state.terms:
-        response += term.effect.columns(linear.sensitivity, term.place).reshape(size, -1) @ term.values
     blocks = [linear.raw(of[n]) for n in (*lower, *upper)]
     prior = [np.full(b.shape[1], precision[n]) for b, n in zip(blocks, (*lower, *upper), strict=True)]
-    free = linear.free.shape[1]
-    calibrated = free + sum(len(p) for p in prior[: len(lower)])
     columns = np.hstack([linear.free, *blocks])
-    fold = np.repeat(regions(recording.q), linear.state.weights.shape[1])
-    few, all_of_it = heldout_residuals(
-        columns,
-        response,
-        np.concatenate([np.zeros(free), *prior]),
-        fold,
-        [calibrated, columns.shape[1]],
-        linear.absorbed,
-    )
-    counted = np.repeat(kept, linear.state.weights.shape[1]) & np.isfinite(few) & np.isfinite(all_of_it)
-    return bool(np.sum(all_of_it[counted] ** 2) > np.sum(few[counted] ** 2))
+    free, values = linear.free.shape[1], linear.state.weights.shape[1]
+    calibrated = free + sum(len(p) for p in prior[: len(lower)])
+    few, every = heldout_residuals(
+        columns, found.response(), np.concatenate([np.zeros(free), *prior]),
+        np.repeat(regions(found.state.recording.q), values), [calibrated, columns.shape[1]], linear.absorbed,
+    )  # fmt: skip
+    counted = np.repeat(kept, values) & np.isfinite(few) & np.isfinite(every)
+    return bool(np.sum(every[counted] ** 2) > np.sum(few[counted] ** 2))

@@ -7,7 +7,10 @@ import pytest
 
 from app.diagnosis.kinematic.diagnose import diagnose
 from app.diagnosis.kinematic.judging import judged
-from app.diagnosis.model import model_of
+from app.diagnosis.kinematic.regions import regions
+from app.diagnosis.model import ModelEffect, SavedModel, Taught, model_of
+from app.diagnosis.models.kinematic.saved import held_terms
+from app.diagnosis.models.kinematic.situation import situation_for
 from app.diagnosis.observations.pose_reading import read_static
 from app.recordings import read_table
 from app.recordings.arm import robot_for
@@ -63,6 +66,23 @@ def test_what_an_instrument_gets_wrong_throughout_is_carried_and_a_step_is_not(a
         )
         errors[len(where)] = judged(read_static(again, arm), arm, model).after_quality.heldout_rms
     assert max(errors.values()) < 0.025
+
+
+def test_what_holds_near_the_taught_poses_is_left_out_elsewhere(arm):
+    rng = np.random.default_rng(2)
+    taught = poses(arm, rng, 60, span=0.5)
+    wave = {"joint": 2, "driver": "own_angle", "order": 1}
+    effect = ModelEffect("gear_eccentricity", wave, {"sin": 1e-3, "cos": 0.0}, False, False, 0, True)
+    model = SavedModel("static", "arm", (effect,), taught=Taught(poses=taught.tolist(), rows="other"))
+    near, far = poses(arm, rng, 40, span=0.5), poses(arm, rng, 40, span=2.0)
+    assert held_terms(model, situation_for(arm, near), "these")
+    assert not held_terms(model, situation_for(arm, far), "these")
+    assert held_terms(model, situation_for(arm, far), "other")  # its own rows hold everything
+
+
+def test_poses_are_halved_into_regions_of_one_size(arm):
+    found = regions(poses(arm, np.random.default_rng(1), 64))
+    assert np.bincount(found).tolist() == [8] * 8
 
 
 def test_the_table_says_how_many_are_worse():
