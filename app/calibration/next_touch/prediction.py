@@ -46,11 +46,11 @@ def predicted_error(rotations: np.ndarray, noise: float = USUAL_NOISE) -> float:
     return reach(0) * float(np.sqrt(np.linalg.eigvalsh(covariance)[-1]))
 
 
-def inverse_trace(
-    a: np.ndarray, b: np.ndarray, c: np.ndarray, d: np.ndarray, e: np.ndarray, f: np.ndarray
-) -> np.ndarray:
-    """trace(M^-1) of symmetric 3 x 3 matrices [[a, b, c], [b, d, e], [c, e, f]] in closed form; huge where singular."""
+def inverse_trace(matrices: np.ndarray) -> np.ndarray:
+    """trace(M^-1) of symmetric (..., 3, 3) in closed form; huge where singular."""
+    a, b, c = matrices[..., 0, 0], matrices[..., 0, 1], matrices[..., 0, 2]
+    d, e, f = matrices[..., 1, 1], matrices[..., 1, 2], matrices[..., 2, 2]
     first, second, third = d * f - e * e, b * f - c * e, b * e - c * d
     determinant = a * first - b * second + c * third
-    sums = first + a * (f + d) - c * c - b * b
+    sums = first + a * f - c * c + a * d - b * b
     return np.where(determinant > _SINGULAR, sums / np.maximum(determinant, _SINGULAR), 1e12)
