@@ -163,10 +163,9 @@ class Shell:
         await Words(page, live, self.hub, self._entrance, visitor).run()
 
     async def _enter(self, asked: HTTPConnection, visitor: Visitor) -> Live:
+        # A page's sockets wait for no thread behind those whose sessions are still to be opened.
         live = self.hub.find(visitor.owner)
-        if (
-            live is not None
-        ):  # its page's sockets wait for no thread behind those whose sessions are still to be opened
+        if live is not None:
             return live
         look = asked.cookies.get(LOOK_COOKIE)
         return await asyncio.to_thread(self.hub.enter, visitor.owner, look, visitor.person)

@@ -213,9 +213,8 @@ class Hub:
             if not self._closed:
                 self._live[session.name] = live
                 self._at[owner] = session.name
-                if (
-                    self._unvisited is not None
-                ):  # who asks for the page and never comes in keeps no session open
+                # Who asks for the page and never comes in keeps no session open.
+                if self._unvisited is not None:
                     self._forget_in(self._unvisited, session.name)
                 self._make_room()
                 return live

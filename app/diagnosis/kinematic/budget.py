@@ -106,13 +106,12 @@ def _without(
     upper: dict[int, list[int]] = {}
     for number in _inside(found):
         candidate, columns = library.fixed[number], linear.columns[number].tolist()
-        if candidate.effect.level == Level.CALIBRATION and candidate.effect.lasts(candidate.place.where):
-            lower += columns
+        level = candidate.effect.level
+        if not candidate.effect.lasts(candidate.place.where):
             continue
-        free = candidate.effect.lasts(candidate.place.where) and candidate.label not in spoken
-        if free and (
-            candidate.effect.level == Level.MECHANISM or (local and candidate.effect.level == Level.UNKNOWN)
-        ):
+        if level == Level.CALIBRATION:
+            lower += columns
+        elif candidate.label not in spoken and (local or level == Level.MECHANISM):
             upper.setdefault(int(candidate.place.where.get("joint", 0)), []).extend(columns)
     if not lower or not upper:
         return {}

@@ -44,7 +44,6 @@ def test_a_part_carried_to_the_rest_is_no_worse_than_an_ordinary_calibration(nam
     robot = robot_for(learnt)
     model = model_of(diagnose(learnt, robot))
     found = judged(read_static(rest, robot), robot, model)
-    print(name, found.after_quality.heldout_rms, found.before_quality.heldout_rms)
     assert found.after_quality.heldout_rms < left * found.before_quality.heldout_rms
 
 

@@ -23,9 +23,9 @@ def cosines(values: np.ndarray, low: float, high: float, count: int) -> np.ndarr
     return np.cos(np.pi * z[:, None] * np.arange(1, count + 1)) * left[:, None]
 
 
-def smoothness(count: int, power: float = 1.5) -> np.ndarray:
-    """(count,) relative widths: k to the minus `power`, so that slow waves are expected larger than fast ones."""
-    return np.arange(1.0, count + 1) ** -power
+def smoothness(count: int) -> np.ndarray:
+    """(count,) relative widths: one over k, so that slow waves are expected larger than fast ones."""
+    return 1.0 / np.arange(1.0, count + 1)
 
 
 def orders(dimensions: int, degree: int) -> np.ndarray:

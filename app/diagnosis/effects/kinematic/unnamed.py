@@ -77,7 +77,7 @@ class Unnamed(KinematicEffect):
         if place.where["driver"] == "approach":
             return tuple(Quantity(f"c{k + 1}", "1", _WIDTH) for k in range(2 * len(_PLAYS) + 1))
         if "joint" in place.where:
-            sizes = _WIDTH * smoothness(int(place.fixed["count"]), 1.0)
+            sizes = _WIDTH * smoothness(int(place.fixed["count"]))
             return tuple(Quantity(f"c{k + 1}", "1", float(s)) for k, s in enumerate(sizes))
         which = _orders(place)
         sizes = _WIDTH / which.sum(axis=1)

@@ -32,7 +32,7 @@ class UnnamedDrift(KinematicEffect):
             yield Place({**where, "driver": "time"}, span, member=False)
 
     def quantities(self, situation, place):
-        sizes = _WIDTH * smoothness(_COUNT, 1.0)
+        sizes = _WIDTH * smoothness(_COUNT)
         axes = ("",) if "joint" in place.where else ("x", "y", "z")
         return tuple(Quantity(f"c{axis}{k + 1}", "1", float(s)) for k, s in enumerate(sizes) for axis in axes)
 
