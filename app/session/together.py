@@ -10,7 +10,7 @@ from __future__ import annotations
 import threading
 from collections.abc import Callable
 from contextlib import AbstractContextManager
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from sqlalchemy import Connection
 
@@ -21,7 +21,8 @@ from app.errors import ConflictError, StorageError
 class _Write:
     job: Callable[[Connection], None]
     done: bool = False
-    error: Exception | None = None
+    # Until it is known: whoever was to write it may have been ended in the midst of it.
+    error: Exception | None = field(default_factory=lambda: StorageError("this was not kept"))
 
 
 class Together:

@@ -9,6 +9,7 @@ from sqlalchemy import func, insert, select
 from app.errors import ConflictError, StorageError
 from app.session import Store
 from app.session.database import SESSIONS
+from app.session.together import Together
 from tests.desk import until
 
 
@@ -84,3 +85,33 @@ def test_a_disk_that_takes_nothing_is_told_to_all(database):
     raised, commits = at_once(database, [row("d" * 32), full, row("e" * 32)])
     assert all(isinstance(error, StorageError) for error in raised) and commits == 1
     assert kept(database) == before
+
+
+def test_who_waited_for_one_who_was_ended_is_told_that_nothing_was_kept():
+    class Ended(BaseException):
+        pass
+
+    begun, told = [], []
+
+    @contextmanager
+    def begin():
+        begun.append(1)
+        if len(begun) == 1:
+            raise Ended
+        yield
+
+    def write():
+        try:
+            together.write(lambda connection: None)
+        except BaseException as error:
+            told.append(type(error))
+
+    together = Together(begin)
+    threads = [threading.Thread(target=write) for _ in range(2)]
+    with together._turn:
+        for thread in threads:
+            thread.start()
+        until(lambda: len(together._waiting) == 2, "both")
+    for thread in threads:
+        thread.join()
+    assert sorted(t.__name__ for t in told) == ["Ended", "StorageError"]

@@ -5,11 +5,7 @@ from __future__ import annotations
 import re
 from functools import cache
 
-from app.diagnosis.report.budget import (
-    budget,
-    budget_sentence,
-    unexplained_sentence,
-)
+from app.diagnosis.report.budget import budget, budget_sentence, unexplained_sentence
 from app.diagnosis.report.curves import Curve
 from app.diagnosis.report.drawing.bars import before_after_bars
 from app.diagnosis.report.drawing.budget_bar import budget_bar
