@@ -25,7 +25,7 @@ Every arrow points down; nothing lower knows anything higher (tests/test_archite
     texts         what the pendant says, a file a language
     apart         a job in a process of its own, with bounded time and memory
     templating    templates of pages, sheets and reports; every text is escaped
-    catalog, resources, phrases, errors, units
+    catalog, resources, phrases, steps, errors, units
 
 Notation: `T_base_tool` maps tool coordinates into base, so names cancel from inside. `R_a_b`, `p_a`,
 `q` likewise; plurals (`Ts_`) are batches. Inside: metres, radians, seconds, newton-metres, no suffix.

@@ -3,15 +3,17 @@ people go on.
 
 Run: python -m benchmarks class_load; longer: python -m benchmarks.class_load TRAINEES SECONDS WORKERS KILL_EVERY_S
 
-Each trainee holds switch and button, jogs, records a point, deletes it again, over the network, with the scene's socket
-open, and looks on between two doings as a learner does: a burst of 0.6 s every five seconds or so. Figures of a run in
-which workers are killed hold the waits for another worker apart from the round trips. The trainees' own program takes a
-share of the same cores, which is said beside that of front and workers.
+All come at the same second; when everybody is in, the time begins and so do the kills. Each trainee holds switch and
+button, jogs, records a point, deletes it again, over the network, with the scene's socket open, and looks on between
+two doings as a learner does: a burst of 0.6 s every five seconds or so. Figures of a run in which workers are killed
+hold the waits for another worker apart from the round trips. The trainees' own program takes a share of the same cores,
+which is said beside that of front and workers.
 """
 
 from __future__ import annotations
 
 import asyncio
+import math
 import os
 import random
 import signal
@@ -45,6 +47,7 @@ class _NoAnswerError(Exception):
 class Tally:
     """What all trainees met."""
 
+    end: float = math.inf  # by the performance counter; known when everybody is in
     trips: list[float] = field(default_factory=list)
     back: list[float] = field(default_factory=list)
     confirmed: int = 0
@@ -57,13 +60,14 @@ class Trainee:
 
     def __init__(self, server: Any, tally: Tally):
         self._server, self._tally, self.cookie = server, tally, ""
+        self.came = asyncio.Event()
         self.points: dict[str, bool] = dict.fromkeys(STEPS, False)
         self.doubtful: set[str] = set()  # pressed, and not answered
 
-    async def learn(self, end: float) -> None:
+    async def learn(self) -> None:
         """Until the end."""
         thrown = 0.0
-        while time.perf_counter() < end:
+        while time.perf_counter() < self._tally.end:
             page = None
             try:
                 page = await enter(self._server, self.cookie)
@@ -73,10 +77,12 @@ class Trainee:
                     self._tally.back.append(time.perf_counter() - thrown)
                     thrown = 0.0
                 self._compare(page)
-                while time.perf_counter() < end:
+                self.came.set()
+                while time.perf_counter() < self._tally.end:
                     await self._one(page)
             except _BROKEN:
-                thrown = thrown or time.perf_counter()
+                if self.came.is_set():
+                    thrown = thrown or time.perf_counter()
                 await asyncio.sleep(0.5)  # as the page waits
             except _NoAnswerError:
                 self._tally.errors += 1
@@ -133,7 +139,7 @@ def run(
         server, tally = Started(folder, "--workers", str(workers)), Tally()
         try:
             spent = Spent(server)
-            kills = asyncio.run(_class(server, tally, trainees, seconds, kill_every, spent))
+            coming, kills = asyncio.run(_class(server, tally, trainees, seconds, kill_every, spent))
             loaded = os.getloadavg()[0]
             server.stop()
         finally:
@@ -141,6 +147,7 @@ def run(
     what = f"{trainees} trainees, {workers} workers, {seconds:g} s, {kills} kills"
     trips, back = np.array(tally.trips or [np.nan]), np.array(tally.back or [np.nan])
     return [
+        Row(f"{what}: until all who came at once were in", coming),
         Row(f"{what}: round trip, p50", float(np.percentile(trips, 50))),
         Row(f"{what}: round trip, p95", float(np.percentile(trips, 95))),
         Row(f"{what}: points confirmed", tally.confirmed, unit=""),
@@ -155,13 +162,17 @@ def run(
 
 
 class Spent:
-    """Processor time from now on: of this program, and of front and workers, those that are killed included."""
+    """Processor time since `begin`: of this program, and of front and workers, those that are killed included."""
 
     def __init__(self, server: Started):
-        self._server, self._begun, self.served = server, time.process_time(), 0.0
+        self._server, self._begun, self.served = server, 0.0, 0.0
         self._seen: dict[int, float] = {}
+        self.begin()
+
+    def begin(self) -> None:
+        """Forgets what was spent so far."""
         self.look()
-        self.served = 0.0
+        self._begun, self.served = time.process_time(), 0.0
 
     @property
     def own(self) -> float:
@@ -179,13 +190,17 @@ class Spent:
 
 async def _class(
     server: Started, tally: Tally, trainees: int, seconds: float, kill_every: float, spent: Spent
-) -> int:
+) -> tuple[float, int]:
+    """Seconds until all were in, and how many processes were killed."""
     people = [Trainee(server, tally) for _ in range(trainees)]
     begun = time.perf_counter()
-    end = begun + seconds
-    tasks = [asyncio.create_task(person.learn(end)) for person in people]
-    kills = 0
-    while kill_every and time.perf_counter() + kill_every < end:
+    tasks = [asyncio.create_task(person.learn()) for person in people]
+    await asyncio.gather(*(person.came.wait() for person in people))
+    spent.begin()
+    tally.trips.clear()
+    coming, kills = time.perf_counter() - begun, 0
+    tally.end = begun + coming + seconds
+    while kill_every and time.perf_counter() + kill_every < tally.end:
         await asyncio.sleep(kill_every)
         spent.look()
         serving = server.workers()
@@ -194,7 +209,7 @@ async def _class(
             kills += 1
     await asyncio.gather(*tasks)
     spent.look()
-    return kills
+    return coming, kills
 
 
 if __name__ == "__main__":

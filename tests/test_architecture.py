@@ -36,6 +36,7 @@ LAYERS = [
     "phrases",
     "files",
     "apart",
+    "steps",
     "templating",
     "typed",
     "errors",
@@ -223,6 +224,7 @@ OTHERWISE = {
     ("result.py", "unnamed"): "a family of the error budget",
     ("observations/pose_data.py", "payload"): "an array with one value a row",
     ("observations/pose_reading.py", "payload"): "a column of a recording",
+    ("observations/conventions.py", "delay"): "the number by which a clock is late",
     ("export/targets/_words.py", "delay"): "a word of the remark at the top of a file",
     ("export/targets/mjcf.py", "delay"): "an attribute of MuJoCo's motor",
 }

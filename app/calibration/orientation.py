@@ -19,7 +19,6 @@ from scipy import special
 from app.calibration.captures import Capture
 from app.calibration.result import AxisCone
 from app.calibration.wording import degenerate
-from app.geometry import Pose
 from app.units import deg, mm
 
 #: Strokes below this cannot show a direction at all [m].
@@ -118,11 +117,6 @@ def cone(axis: Axis, covariance: np.ndarray, sigma: float, dof: int) -> AxisCone
     spread = float(np.sqrt(np.linalg.eigvalsh(across @ ends @ across)[-1])) / axis.stroke
     quantile = special.fdtri(2, dof, 0.95) if dof > 0 else special.chdtri(2, 0.05) / 2.0
     return AxisCone(axis.name, axis.stroke, spread, float(np.arctan(spread * np.sqrt(2.0 * quantile))))
-
-
-def tool_pose(rotation: np.ndarray | None, tool: np.ndarray) -> Pose:
-    """T_flange_tool."""
-    return Pose.of(rotation, tool)
 
 
 def describe(axis: Axis) -> str:

@@ -7,7 +7,7 @@ import numpy as np
 from app.calibration.next_touch.advised import advised_touch
 from app.calibration.quality.region import ellipsoid, half_widths
 from app.calibration.solving import Solved
-from app.calibration.wording import FALLBACK, TEXTS, Phrase, name_of, phrase
+from app.calibration.wording import FALLBACK, Phrase, name_of, phrase
 from app.errors import DegenerateGeometryError
 from app.estimation import HALF
 from app.geometry import CONVENTIONS
@@ -53,14 +53,9 @@ class _Page:
         arm = points.robot
         if arm is not None:
             lines.append(t("arm", robot=arm.title, joints=arm.joint_count, base=arm.base, flange=arm.flange))
-        lines.append(t("position", how=self._named("method", result.method)))
-        lines.append(t("axes", how=self._named("axes", result.orientation)))
+        lines.append(t("position", how=phrase(f"method.{result.method}")))
+        lines.append(t("axes", how=phrase(f"axes.{result.orientation}")))
         return lines
-
-    def _named(self, family: str, key: str) -> str:
-        """What a method or an orientation is; a mode's own key where it has no text."""
-        name = f"{family}.{key}"
-        return phrase(name).text(self._language) if TEXTS.has(name) else key
 
     def _point(self) -> list[str]:
         result = self._result

@@ -6,7 +6,7 @@ import time
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
 
-from sqlalchemy import delete, insert, select
+from sqlalchemy import Connection, delete, insert, select
 
 from app.classroom.tables import PRESENCE
 from app.session.database import Database
@@ -55,9 +55,13 @@ class Presences:
         """Writes what was seen over what was kept."""
         if not seen:
             return
-        with self._database.begin() as connection:
-            connection.execute(delete(PRESENCE).where(PRESENCE.c.owner.in_([one.owner for one in seen])))
-            connection.execute(insert(PRESENCE), [vars(one) for one in seen])
+        rows = [vars(one) for one in seen]
+
+        def kept(connection: Connection) -> None:
+            connection.execute(delete(PRESENCE).where(PRESENCE.c.owner.in_([row["owner"] for row in rows])))
+            connection.execute(insert(PRESENCE), rows)
+
+        self._database.write(kept)
 
     def of(self, owners: Collection[str], now: float | None = None) -> dict[str, Presence]:
         """What these do, by owner; who was not seen for GONE seconds is away."""

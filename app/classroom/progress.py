@@ -102,6 +102,19 @@ def standing(lesson: Lesson, cards: Sequence[ScoreCard], now: float) -> Standing
     )
 
 
+def standings(lessons: Sequence[Lesson], cards: Sequence[ScoreCard], now: float) -> dict[str, Standing]:
+    """How somebody stands in each lesson, by its id.
+
+    Args:
+        cards: all his scores, the oldest first.
+        now: seconds since 1970.
+    """
+    by_key: dict[str, list[ScoreCard]] = {}
+    for card in cards:
+        by_key.setdefault(card.exercise, []).append(card)
+    return {lesson.id: standing(lesson, by_key.get(lesson.key, []), now) for lesson in lessons}
+
+
 def trend(totals: Sequence[float]) -> float | None:
     """Points a try: the slope of the straight line through the last few; None with fewer than two."""
     recent = np.array(totals[-_RECENT:], float)

@@ -14,14 +14,13 @@ from app.classroom.hints import Hints
 from app.classroom.losses import Losses, losses
 from app.classroom.made import Made
 from app.classroom.presence import Presence, Presences
-from app.classroom.progress import Lesson, Standing, next_lesson, standing
+from app.classroom.progress import Lesson, Standing, next_lesson, standings
 from app.errors import TeachframeError
 from app.people import People, Person
 from app.people.classes import Class
 from app.people.tables import MEMBERS, PEOPLE
 from app.session.database import Database
 from app.training.records import Records
-from app.training.score import ScoreCard
 
 
 @dataclass(frozen=True)
@@ -86,8 +85,8 @@ class Room:
         seen = self.presences.of(owners, now)
         seats = []
         for person in persons:
-            standings = self._standings(lessons, cards.get(person.id, []), now)
-            seats.append(Seat(person, standings, seen.get(person.owner), next_lesson(lessons, standings)))
+            stand = standings(lessons, cards.get(person.id, []), now)
+            seats.append(Seat(person, stand, seen.get(person.owner), next_lesson(lessons, stand)))
         return seats
 
     def members(self, at: str) -> list[Person]:
@@ -109,7 +108,7 @@ class Room:
 
     def standings(self, person: Person, lessons: Sequence[Lesson]) -> dict[str, Standing]:
         """How somebody stands in these lessons, by lesson id."""
-        return self._standings(lessons, self.records.history(person.id), time.time())
+        return standings(lessons, self.records.history(person.id), time.time())
 
     def losses(self, at: str, lesson: Lesson) -> Losses:
         """Where a class loses points in a lesson."""
@@ -126,10 +125,3 @@ class Room:
         except TeachframeError as error:
             return Lesson(one.id, one.exercise, None, str(error), one.due, every, one.without)
         return Lesson(one.id, one.exercise, exercise, "", one.due, every, one.without)
-
-    @staticmethod
-    def _standings(lessons: Sequence[Lesson], cards: Sequence[ScoreCard], now: float) -> dict[str, Standing]:
-        by_key: dict[str, list[ScoreCard]] = {}
-        for card in cards:
-            by_key.setdefault(card.exercise, []).append(card)
-        return {lesson.id: standing(lesson, by_key.get(lesson.key, []), now) for lesson in lessons}

@@ -5,6 +5,7 @@ from __future__ import annotations
 import importlib
 import re
 from collections.abc import Sequence
+from contextlib import AbstractContextManager
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -20,6 +21,7 @@ from app.recordings.arm import read_with_arm
 from app.recordings.joining import joined
 from app.recordings.matching import check_joints, check_sizes
 from app.recordings.options import ReadOptions
+from app.steps import listened, part
 
 #: Kind of recording -> the package whose `diagnose` reads it. Imported when needed.
 ENGINES = {
@@ -27,6 +29,8 @@ ENGINES = {
     "tracker": "app.diagnosis.kinematic.diagnose",
     "motion": "app.diagnosis.dynamic.diagnose",
 }
+#: Bytes that are read in the time of a search of ten thousand rows.
+_AS_LONG = 30_000_000
 #: Kinds that other commands read.
 ELSEWHERE = {"points": "teachframe solve", "arcs": "teachframe base"}
 
@@ -54,11 +58,13 @@ def diagnose_file(
         InputError: what was given cannot be used; names file, row and column.
         Cancelled: `progress` stopped it.
     """
-    table, arm = read_with_arm(path, robot, options, check=kind_of)
+    first = _reading(path)
+    with _heard_reading(progress, first):  # the rows of a joint log; a static recording's are read later
+        table, arm = read_with_arm(path, robot, options, check=kind_of)
     kind, _ = kind_of(table)
     extra = {} if reference is None else {"reference": _reference(reference, kind, path, arm)}
     with applying(model, path):
-        return _diagnosed(table, arm, model, progress, seed, extra)
+        return _diagnosed(table, arm, model, progress, seed, extra, first)
 
 
 def diagnose_together(
@@ -124,7 +130,9 @@ def _diagnosed(
     progress: Progress | None,
     seed: int,
     extra: dict[str, Any],
+    first: float = 0.0,
 ) -> Diagnosis:
+    """A diagnosis; `first` is the share of it that reading the file is."""
     kind, noted = kind_of(table)
     check_joints(table, arm)
     if family(kind) == "static":
@@ -132,21 +140,43 @@ def _diagnosed(
     if model is not None:
         fitting(model, arm, family(kind), table.path)
     engine = importlib.import_module(ENGINES[kind])
+
+    def tell(share: float, doing: str) -> None:
+        if progress is not None:
+            progress(first + (1.0 - first) * share, doing)
+
     table = replace(table, keys={**table.keys, "kind": kind})
     if family(kind) == "static":
         from app.diagnosis.doubts import check_arm, check_units
+        from app.diagnosis.observations.pose_reading import read_static
 
-        check_units(table, arm)
-        check_arm(table, arm)
-        found: Diagnosis = engine.diagnose(table, arm, progress=progress, seed=seed, model=model)
+        with _heard_reading(progress, first):
+            with part(0.0, 0.85):
+                read_static(table, arm)  # the checks and the engine ask for it again
+            with part(0.85, 1.0):
+                check_units(table, arm)
+                check_arm(table, arm)
+        found: Diagnosis = engine.diagnose(table, arm, progress=tell, seed=seed, model=model)
     else:
-        found = engine.diagnose(table, arm, progress=progress, seed=seed, model=model, **extra)
+        found = engine.diagnose(table, arm, progress=tell, seed=seed, model=model, **extra)
     found = replace(found, file=str(table.path), kind=kind, notes=(*table.notes, *noted, *found.notes))
     if model is None:
         return found
     from app.diagnosis.judging import judge
 
     return replace(found, judged=judge(table, arm, model))
+
+
+def _heard_reading(progress: Progress | None, first: float) -> AbstractContextManager[None]:
+    """What is read within is the first share of all that is told."""
+    return listened(lambda share, doing: progress and progress(first * share, doing), "reading")
+
+
+def _reading(path: str | Path) -> float:
+    """Share of a diagnosis that reading takes: it grows with the file; the search works on so many rows at most."""
+    path = Path(path)
+    size = path.stat().st_size if path.is_file() else 0
+    return size / (size + _AS_LONG)
 
 
 def family(kind: str) -> str:

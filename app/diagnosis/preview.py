@@ -11,6 +11,7 @@ from app.errors import InputError
 from app.kinematics import RobotModel
 from app.recordings import Table
 from app.recordings.matching import check_joints
+from app.steps import part
 
 
 def preview(table: Table, robot: RobotModel, model: SavedModel | None = None) -> Evidence:
@@ -37,8 +38,10 @@ def _static(table: Table, robot: RobotModel, model: SavedModel | None) -> Eviden
     from app.diagnosis.kinematic.pictures import evidence_of
     from app.diagnosis.observations.pose_reading import read_static
 
-    recording = read_static(table, robot)
-    return evidence_of(recording, bare(recording) if model is None else judged(recording, robot, model))
+    with part(0.0, 0.85):
+        recording = read_static(table, robot)
+    with part(0.85, 1.0, "beside the simulation"):
+        return evidence_of(recording, bare(recording) if model is None else judged(recording, robot, model))
 
 
 def _motion(table: Table, robot: RobotModel, model: SavedModel | None) -> Evidence:

@@ -9,6 +9,7 @@ from __future__ import annotations
 import contextlib
 import logging
 import queue
+import re
 import time
 from collections.abc import Callable, Iterator
 from concurrent.futures import CancelledError
@@ -21,8 +22,12 @@ from app.fleet.work import Job, OtherVersionError, Row, Settings, died, work
 if TYPE_CHECKING:
     from distributed import Client, Future
 
+#: What can be asked at all: Dask itself says so late, and leaves a trace of a client that never was.
+_ADDRESS = re.compile(r"((tcp|tls|ucx|wss?)://)?(\[[0-9A-Fa-f:.%]+\]|[^\s/:\[\]]+):([0-9]{1,5})\Z")
+_MOST_PORT = 65_535
 _ANSWER = 10.0  # seconds a scheduler has to answer
 _PATIENCE = 120.0  # seconds a scheduler that was there may be gone, or a cluster without a worker
+_EXPECTED = "the address that `dask scheduler` prints, as tcp://HOST:8786"
 _LOOK = 1.0  # seconds between two looks at a silent scheduler
 _AHEAD, _LEAST = 3, 8  # jobs a thread has waiting; jobs at once where nobody works yet
 _COUNTED = 10.0  # seconds between two counts of a cluster that may grow
@@ -38,10 +43,13 @@ class Cluster:
         say: told in a line when the scheduler or the workers are waited for.
 
     Raises:
-        InputError: Dask is not installed, or the scheduler does not answer.
+        InputError: no address, Dask is not installed, or the scheduler does not answer.
     """
 
     def __init__(self, address: str, settings: Settings, version: str, say: Callable[[str], None]):
+        at = _ADDRESS.match(address)
+        if at is None or not 0 < int(at[4]) <= _MOST_PORT:
+            raise InputError(f"{address!r} is no address", column="--scheduler", expected=_EXPECTED)
         self._address, self._settings, self._version, self._say = address, settings, version, say
         logging.getLogger("distributed").setLevel(
             logging.CRITICAL
@@ -191,5 +199,5 @@ class Cluster:
             raise InputError(
                 f"the scheduler does not answer ({one_line(str(error), 120)})",
                 column="--scheduler",
-                expected="the address that `dask scheduler` prints, as tcp://HOST:8786",
+                expected=_EXPECTED,
             ) from None

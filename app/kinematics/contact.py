@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 from collections.abc import Sequence
 
 import coal  # pyright: ignore[reportMissingImports]  (found through a .pth hook)
@@ -23,6 +24,12 @@ class Contact:
         self._carried = [(coal_solid(shape), shape.T_body_shape) for shape in carried]
         self._fixed = [(coal_solid(shape), _transform(shape.T_body_shape)) for shape in fixed]
         self._request, self._result = coal.DistanceRequest(), coal.DistanceResult()
+
+    def again(self) -> Contact:
+        """The same groups for another thread: solids are shared, what is reckoned with is not."""
+        out = copy.copy(self)
+        out._request, out._result = coal.DistanceRequest(), coal.DistanceResult()
+        return out
 
     def distance(self, T_fixed_carried: Pose) -> float:
         """The least distance [m], negative by how deep they overlap; infinite where one group is empty."""

@@ -28,7 +28,8 @@ class Logins:
         secret, now = secrets.token_urlsafe(32), time.time()
         row = {"hash": _hash(secret), "person": person, "created": now, "last": now, "expires": now + LOGIN}
         with self._database.begin() as connection:
-            connection.execute(delete(LOGINS).where(~_counts(now)))
+            # Those that ended stay for as long again: who comes back with one is told so.
+            connection.execute(delete(LOGINS).where(~LOGINS.c.expires.between(now - LOGIN, now + LOGIN)))
             connection.execute(insert(LOGINS), row)
         return secret
 
@@ -52,6 +53,15 @@ class Logins:
             if alive and abs(now - row.last) > TOUCH:
                 connection.execute(update(LOGINS).where(LOGINS.c.hash == key).values(last=now))
             return row.person
+
+    def ran_out(self, secret: str) -> str | None:
+        """Id of whom a browser's secret belonged to until its time ran out, said once; None for any other."""
+        now, mine = time.time(), LOGINS.c.hash == _hash(secret)
+        with self._database.begin() as connection:
+            person = connection.execute(select(LOGINS.c.person).where(mine, ~_counts(now))).scalar()
+            if person is None:
+                return None
+            return person if connection.execute(delete(LOGINS).where(mine)).rowcount else None
 
     def end(self, secret: str) -> None:
         """Logged out; a secret that is not known is no error."""

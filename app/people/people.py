@@ -272,7 +272,9 @@ class People:
             one = update(PEOPLE).where(PEOPLE.c.id == row.id)
             connection.execute(one.values(failed=PEOPLE.c.failed + 1))
             locked = {"failed": 0, "locked_until": time.time() + LOCKED}
-            connection.execute(one.where(PEOPLE.c.failed >= FAILED).values(**locked))
+            now = connection.execute(one.where(PEOPLE.c.failed >= FAILED).values(**locked)).rowcount
+        if now:
+            self.audit.note(row.id, "locked")
 
     def _another_administrator(self, id: str) -> bool:
         there = (PEOPLE.c.role == "administrator", PEOPLE.c.disabled.is_(False), PEOPLE.c.id != id)

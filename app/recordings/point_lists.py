@@ -18,6 +18,7 @@ import numpy as np
 import polars as pl
 
 from app.errors import CellValueError, FileFormatError, MissingColumnError
+from app.recordings.list_text import read_text
 from app.recordings.options import ReadOptions
 from app.recordings.table import Table
 from app.units import MM_PER_INCH
@@ -49,7 +50,6 @@ _NUMBER = re.compile(r"[+-]?(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][+-]?\d+)?\Z")
 _OWN = re.compile(r"(?:^|[,;\t])\s*(?:q[0-9]+(?:_|[,;\t]|$)|role\b|axis\b|t_s\b|[xyz]_m{1,2}\b)")
 _BRACKETED = re.compile(r"[\[(][^\])]{0,40}[\])]")
 _LONGEST_NAME = 200  # characters of a column's name that say something; a longer cell is no name
-_LONGEST = 50_000_000  # bytes: a point list is not longer
 
 
 @dataclass(frozen=True)
@@ -58,24 +58,6 @@ class Line:
 
     number: int
     cells: tuple[str, ...]
-
-
-def read_text(path: Path) -> str:
-    """The file as text: UTF-8, or the code page Windows programs write.
-
-    Raises:
-        FileFormatError: binary, or too long for a list of points.
-    """
-    if path.stat().st_size > _LONGEST:
-        raise FileFormatError("too long for a list of points", file=path, expected="a point export")
-    data = path.read_bytes()
-    if b"\x00" in data:
-        row = 1 + data[: data.index(b"\x00")].count(b"\n")
-        raise FileFormatError("binary content", file=path, row=row, expected="text")
-    try:
-        return data.decode("utf-8-sig")
-    except UnicodeDecodeError:
-        return data.decode("cp1252", errors="replace")
 
 
 def unit_said(lines: Sequence[str]) -> str | None:

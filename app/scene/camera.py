@@ -12,6 +12,9 @@ from app.simulation.world import World
 View = tuple[np.ndarray, np.ndarray]  # where the eye is, what it looks at [m]
 
 _NARROW = 0.8  # width over height from which on everything of interest is seen
+_NEAREST = (
+    0.78  # of the usual distance in a wide window: the arm is larger, one stretched upright just leaves it
+)
 _CLOSE_UP = 0.16  # of the reach: from here a millimetre is seen
 _FIELD = 0.75  # vertical field of view [rad]: narrow, so that straight things look straight
 
@@ -66,16 +69,20 @@ FOLLOWING = ("side", "front")
 MORE_VIEWS = {"result": result}
 
 
-def look(eyes: Eyes, view: View) -> None:
-    """Puts the eye there; a narrow window sees less to its sides, so from farther away."""
+def look(eyes: Eyes, view: View, *, nearer: bool = False) -> None:
+    """Puts the eye there; a narrow window sees less to its sides, so from farther away.
+
+    Args:
+        nearer: in a wide window the eye may come nearer.
+    """
     eye, centre = view
-    eye = centre + max(1.0, _NARROW / eyes.aspect) * (eye - centre)
+    eye = centre + max(_NEAREST if nearer else 1.0, _NARROW / eyes.aspect) * (eye - centre)
     eyes.look(eye, centre, _FIELD)
 
 
-def look_at_all(eyes: Eyes, points: np.ndarray, towards_eye: np.ndarray) -> None:
-    """Puts the eye where all points are seen, however wide the window is."""
-    eyes.look(*framed(points, towards_eye, eyes.aspect), _FIELD)
+def look_straight(eyes: Eyes, view: View) -> None:
+    """Puts the eye exactly there: the view was made for this window."""
+    eyes.look(*view, _FIELD)
 
 
 def framed(

@@ -21,6 +21,7 @@ from app.scene.residuals import arrow_ends
 from app.units import deg, mm
 
 HEIGHT = 0.026  # of a line of words, as a share of the reach
+_LETTER = 0.6  # heights a letter is wide
 _LEADING = 1.35  # heights from one line to the next
 _APART = 1.7  # the same of numbers of points, which have a rim
 _ASIDE = 0.10  # of the reach: from the tip to the column
@@ -105,18 +106,26 @@ class Captions:
     def __init__(self, scene: viser.SceneApi, reach: float):
         self._scene, self._reach = scene, reach
         self._handles: list[viser.SceneNodeHandle] = []
+        self._shown: tuple[Sequence[Caption], np.ndarray] = (), np.zeros((0, 3))
+
+    def corners(self, right: np.ndarray) -> np.ndarray:
+        """(n, 3) where the lines begin and end on a page whose right is `right` (3,), in base [m]."""
+        captions, places = self._shown
+        lengths = np.array([len(c.text) for c in captions]) * _LETTER * HEIGHT * self._reach
+        return np.vstack([places, places + lengths[:, None] * right])
 
     def clear(self) -> None:
         """Takes all away."""
         for handle in self._handles:
             handle.remove()
-        self._handles = []
+        self._handles, self._shown = [], ((), np.zeros((0, 3)))
 
     def show(self, captions: Sequence[Caption], places: np.ndarray) -> None:
         """These at these places (n, 3), in base [m]."""
         self.clear()
         if not captions:
             return
+        self._shown = captions, places
         root = f"/captions{next(_NUMBERS)}"
         lines = np.array([[c.about, place] for c, place in zip(captions, places, strict=True)], np.float32)
         self._handles.append(

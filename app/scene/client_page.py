@@ -19,13 +19,17 @@ Document.prototype.hasFocus = () => true;
 if (new URLSearchParams(location.search).has("fixedDpr")) {
   // Numbers of its own: a timer's may be that of a frame, and to give up the one would give up the other for good.
   const PAUSE = 80, next = window.requestAnimationFrame.bind(window), stop = window.cancelAnimationFrame.bind(window);
-  const waiting = new Map();
+  const waiting = new Map(), late = new Map();  // what is late goes on together and in its order
+  const goOn = () => { const asks = [...late.values()]; late.clear(); asks.forEach((ask) => ask()); };
   let free = 0, last = 1e9;
   window.requestAnimationFrame = (draw) => {
     const number = ++last, wait = free - performance.now();
     const run = (now) => { waiting.delete(number); draw(now); free = performance.now() + PAUSE; };
     const ask = () => { const frame = next(run); waiting.set(number, () => stop(frame)); };
-    if (wait > 4) { const timer = setTimeout(ask, wait); waiting.set(number, () => clearTimeout(timer)); } else ask();
+    if (!late.size && wait <= 4) { ask(); return number; }
+    if (!late.size) setTimeout(goOn, wait);
+    late.set(number, ask);
+    waiting.set(number, () => late.delete(number));
     return number;
   };
   window.cancelAnimationFrame = (number) => { waiting.get(number)?.(); waiting.delete(number); };

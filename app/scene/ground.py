@@ -13,6 +13,14 @@ _FLOORS: dict[bool, tuple[Colour, Colour, Colour]] = {
 }
 
 
+FLOOR = "/floor"  # name of its node
+
+
+def floor_colours(*, dark: bool) -> dict[str, Colour]:
+    """Colours of the floor on a dark or a light page, by viser's names."""
+    return dict(zip(("plane_color", "cell_color", "section_color"), _FLOORS[dark], strict=True))
+
+
 def light_up(scene: viser.SceneApi) -> None:
     """Lights without shadows: a page without a graphics card stays smooth."""
     scene.configure_default_lights(cast_shadow=False)
@@ -22,9 +30,9 @@ def light_up(scene: viser.SceneApi) -> None:
 
 def lay_floor(scene: viser.SceneApi, *, dark: bool) -> None:
     """A square floor with a quarter-metre grid."""
-    plane, cells, sections = _FLOORS[dark]
+    colours = floor_colours(dark=dark)
     scene.add_grid(
-        "/floor",
+        FLOOR,
         width=6.0,
         height=6.0,
         cell_size=0.25,
@@ -34,7 +42,7 @@ def lay_floor(scene: viser.SceneApi, *, dark: bool) -> None:
         shadow_opacity=0.0,
         fade_distance=12.0,
         fade_strength=2.0,
-        plane_color=plane,
-        cell_color=cells,
-        section_color=sections,
+        plane_color=colours["plane_color"],
+        cell_color=colours["cell_color"],
+        section_color=colours["section_color"],
     )

@@ -1,4 +1,4 @@
-"""The arm as it would stand at the next touch: translucent, over the real one."""
+"""The arm as it would stand next, at a touch or at a pose of a run: translucent, over the real one."""
 
 from __future__ import annotations
 
@@ -16,23 +16,40 @@ _SAME = 0.01  # rad or m: closer than this the ghost would only blur the arm
 
 
 class NextArm:
-    """A ghost that is made when it is first needed.
+    """A ghost that is made when it is first needed, and seen while the screen that proposes it is open.
 
     Args:
         robot: what to draw.
     """
 
     def __init__(self, scene: viser.SceneApi, robot: RobotModel):
-        self._scene, self._robot = scene, robot
+        self._scene, self._robot, self._screen = scene, robot, ""
+        self._proposed: dict[str, tuple[np.ndarray, str]] = {}  # by screen
         self._view: ArmView | None = None
         self._label: viser.LabelHandle | None = None
         self._q: np.ndarray | None = None
+        self._at: np.ndarray | None = None
         self._away = False
         self._near = False
 
-    def show(self, q: np.ndarray | None, words: str = "") -> None:
-        """The ghost at q (n,), with a few words at its flange; None takes it away."""
-        self._q = None if q is None else np.array(q, float)
+    def show(self, screen: str, q: np.ndarray | None, words: str = "") -> None:
+        """A screen proposes q (n,), with a few words at the ghost's flange; None takes it away."""
+        if q is None:
+            self._proposed.pop(screen, None)
+        else:
+            self._proposed[screen] = np.array(q, float), words
+        if screen == self._screen:
+            self._draw()
+
+    def look(self, screen: str) -> None:
+        """Another screen is open."""
+        if screen != self._screen:
+            self._screen = screen
+            self._draw()
+
+    def _draw(self) -> None:
+        """What the open screen proposes."""
+        self._q, words = self._proposed.get(self._screen, (None, ""))
         if self._label is not None:
             self._label.remove()
             self._label = None
@@ -51,14 +68,22 @@ class NextArm:
                     font_screen_scale=0.8,
                     anchor="bottom-left",
                 )
+        self._step_aside()
         self._set_visible()
 
     def arm_at(self, q: np.ndarray) -> None:
         """The real arm stands at q (n,): the ghost steps aside where both would stand in one place."""
-        near = self._q is not None and float(np.abs(self._q - q).max()) < _SAME
-        if near != self._near:
-            self._near = near
+        self._at = q
+        if self._step_aside():
             self._set_visible()
+
+    def _step_aside(self) -> bool:
+        """Whether the ghost is out of the way; True where that changed."""
+        before = self._near
+        self._near = (
+            self._q is not None and self._at is not None and float(np.abs(self._q - self._at).max()) < _SAME
+        )
+        return self._near != before
 
     def away(self, away: bool) -> None:
         """Hides the ghost while something else is shown in the arm's place."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any
 
@@ -50,6 +50,16 @@ class SceneServer(viser.ViserServer):
         with _without_a_port():
             super().__init__(host="127.0.0.1", port=0, label="Teachframe", verbose=False)
         self.scene.world_axes.visible = False
+        self.sized: Callable[[], None] = lambda: None  # a new page has said how large its window is
+        self.on_client_connect(self._arrived)
+
+    def _arrived(self, client: viser.ClientHandle) -> None:
+        waits = [True]
+
+        @client.camera.on_update
+        def _(_: viser.CameraHandle) -> None:
+            if waits.pop() if waits else False:
+                self.sized()
 
     async def show(self, page: Frames) -> None:
         """Shows the scene to a page until either ends; see Pages.show."""

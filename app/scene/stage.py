@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import time
+from collections.abc import Callable
 
 import numpy as np
 
@@ -11,7 +12,7 @@ from app.calibration.result import ToolCalibration
 from app.calibration.verify import Verification
 from app.geometry import Pose
 from app.scene.arm import ArmView
-from app.scene.camera import CLOSE_UPS, FOLLOWING, MORE_VIEWS, VIEWS, look
+from app.scene.camera import CLOSE_UPS, FOLLOWING, MORE_VIEWS, VIEWS, framed, look, look_straight
 from app.scene.camera import result as result_view
 from app.scene.captions import Captions, column, of_axes, of_points, of_result
 from app.scene.cell import draw_cell
@@ -19,6 +20,7 @@ from app.scene.eyes import Eyes
 from app.scene.ground import lay_floor, light_up
 from app.scene.handle import Dragged, Handle
 from app.scene.held_tool import HeldTool
+from app.scene.instead import Instead
 from app.scene.marks import Marks
 from app.scene.met import How, Met
 from app.scene.next_arm import NextArm
@@ -36,6 +38,7 @@ from app.units import from_mm
 _NUMBERS = itertools.count(1)
 _FOLLOW = from_mm(2.0)  # the tip moves this far before a near view moves with it
 _HANDLE_EVERY = 0.1  # seconds between two places of the handle while the arm moves
+_BODY = 0.13  # half the width of an arm about its joints, as a share of the reach
 _HANDLE = 0.13  # size of the handle, as a share of the reach
 
 
@@ -73,7 +76,8 @@ class Stage:
         self.user = UserAxes(self._scene)
         self.next_arm = NextArm(self._scene, world.robot)
         self.show_handle, self.show_marks, self.show_residuals = handle, True, True
-        self._near = self._looked_at = self._away = self._tracing = False
+        self._near = self._looked_at = self._tracing = False
+        self._instead: Callable[[], Instead] | None = None
         self._reach = reach
         self._numbers, self._words = Captions(self._scene, reach), Captions(self._scene, reach)
         self._drawn: tuple[object, ...] = ()
@@ -83,6 +87,12 @@ class Stage:
         self._tip, self._eye = self._hand.position, np.zeros(3)
         self._followed: np.ndarray | None = None
         self.view("whole")
+        server.sized = self._sized
+
+    def _sized(self) -> None:
+        """A page is there: what was framed for a window nobody had seen yet is framed for this one."""
+        if self._guessed:
+            self.view(self._seen_from)
 
     def floor(self, dark: bool) -> None:
         """Floor and background for a dark or a light page."""
@@ -103,9 +113,17 @@ class Stage:
                 self._held.remove()
             self._held = HeldTool(self._scene, self.arm.flange_path, world)
 
-    def make_room(self, away: bool) -> None:
-        """Hides arm, handle and cell while something else is shown in their place; False brings them back."""
-        self._away = away
+    @property
+    def _away(self) -> bool:
+        return self._instead is not None
+
+    def make_room(self, instead: Callable[[], Instead] | None) -> None:
+        """Hides arm, handle and cell while something else is shown in their place, which the named views look at then.
+
+        Args:
+            instead: what that is now; None brings the cell back.
+        """
+        self._instead, away = instead, instead is not None
         self.arm.visible = self._cell.visible = not away
         self._place_handle()
         self.next_arm.away(away)
@@ -123,14 +141,35 @@ class Stage:
     def view(self, name: str) -> None:
         """Looks from one of the named places; a near one goes along with the tip."""
         self._near = name in CLOSE_UPS
+        self._seen_from, self._guessed = name, not self.eyes.known
         self._place_handle()
+        if self._instead is not None:
+            self._followed = None
+            look_straight(self.eyes, self._instead().view(name, self.eyes.aspect))
+            return
         eye, centre = {**VIEWS, **MORE_VIEWS}[name](self._world)
         self._followed = None
         if name in FOLLOWING:
             eye, centre = eye + self._tip - centre, self._tip
             self._followed = self._tip
         self._eye = eye - centre
-        look(self.eyes, (eye, centre))
+        if name == "result":
+            # The arm stands as high as its last stroke has it, and no part of it may be cut off.
+            points = self._about_result(eye - centre)
+            look_straight(self.eyes, framed(points, eye - centre, self.eyes.aspect, 0.88))
+            return
+        look(self.eyes, (eye, centre), nearer=name == "whole")
+
+    def _about_result(self, back: np.ndarray) -> np.ndarray:
+        """(n, 3) what a look at a result has to show from where `back` (3,) points: arm, spike, words [m]."""
+        right = np.cross([0.0, 0.0, 1.0], back)
+        right /= np.linalg.norm(right)
+        joints = self._world.robot.chain.frames(self.arm.q[None]).joint_positions[0]
+        half = _BODY * self._reach
+        arm = np.vstack([np.zeros(3), joints])
+        bodies = [arm - half * right, arm + half * right, arm + 1.6 * half * np.array([0.0, 0.0, 1.0])]
+        written = [self._words.corners(right), self._numbers.corners(right)]
+        return np.vstack([*bodies, self._tip, self._world.p_base_spike_drawn, *written])
 
     def want_handle(self, *, shift: bool, turn: bool) -> None:
         """Somebody asked for the handle, with these parts: it is there in a near view, too."""

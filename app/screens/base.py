@@ -8,17 +8,16 @@ import numpy as np
 
 from app.kinematics import robot_names
 from app.panel import markup as html
-from app.scene.camera import look
 from app.screens._base import cards
+from app.screens._base.by_hand import ByHand
 from app.screens._base.exam import Exam
 from app.screens._base.giving import send_page, send_relation
 from app.screens._base.run import Run
 from app.session import SessionState
 from app.session.actions import CloseCell, OpenCell
 from app.session.state import robot_named
-from app.simulation.tracker_cell import TrackerCell
 from app.simulation.tracker_meeting import Meeting
-from app.units import deg, from_deg, mm
+from app.units import from_deg, mm
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -34,6 +33,7 @@ class _View:
     def __init__(self, context: Context):
         self._context = context
         self._run: Run | None = None
+        self._by_itself = False  # what runs is the procedure, not a way by hand
         ui, t = context.ui, context.t
         names = tuple(name for name in robot_names() if robot_named(name).joint_count > 2)
         self._intro = ui.add_html(html.paragraph(t("base.intro"), testid="base-intro"))
@@ -61,16 +61,7 @@ class _View:
             self._stop = ui.add_button(t("base.stop"), rank="plain", visible=False)
             context.clicked(self._stop, self._halt)
             self._every = ui.add_number(t("base.every"), 10.0, low=2.0, high=45.0, step=1.0)
-            with ui.add_folder(t("base.by_hand"), expanded=False):
-                self._angle = ui.add_slider(t("base.angle"), -170.0, 170.0, 1.0, 0.0)
-                context.changed(self._angle, "base.angle", self._turn)
-                hand = ui.add_buttons(t("base.point"), (t("base.measure"), t("base.leave"), t("base.undo")))
-                jobs = {
-                    t("base.measure"): self._measure,
-                    t("base.leave"): self._leave,
-                    t("base.undo"): self._undo,
-                }
-                context.chosen(hand, lambda label: jobs[label]())
+            self._hand = ByHand(context, self)
         self._result = ui.add_html("", visible=False)
         self._send = ui.add_button(t("base.send"), visible=False)
         context.clicked(self._send, self._meet)
@@ -112,19 +103,16 @@ class _View:
             seed=int(context.rng.integers(_SPREAD)),
             exam=exam,
         )
-        context.show_instead(self._run.seen)
-        eyes = context.stage.eyes
-        look(eyes, _whole(self._run.drawn, eyes.aspect))
+        context.show_instead(self._run.seen, self._run.instead)
         self._intro.visible = self._setup.visible = False
         self._work.visible = True
         self._close_button.visible = exam.free
-        self._finish(self._run)
+        self.finish(self._run)
 
     def _leave_cell(self) -> None:
         self._drop()
         self._context.do(CloseCell())
         self._context.show_instead(None)
-        self._context.stage.view("whole")
         self._intro.visible = self._setup.visible = True
         for widget in (self._work, self._close_button, self._result, self._send, self._miss, self._give):
             widget.visible = False
@@ -142,71 +130,49 @@ class _View:
         run = self._run
         if run is None or self._context.worker.running(_MOTION):
             return
+        self.begin(self._measuring(run, whole), self._context.t("errand.base"), by_itself=True)
+
+    def begin(self, motion: Iterator[None], errand: str, *, by_itself: bool = False) -> None:
+        """A motion of this cell; like every other it waits for the switch."""
         self._context.drive.must_not_be_stopped()
-        self._context.drive.errand = self._context.t("errand.base")
-        self._context.worker.animate(_MOTION, self._measuring(run, whole))
-        self._stop.visible = True
+        self._context.drive.errand, self._by_itself = errand, by_itself
+        self._context.worker.animate(_MOTION, self._told(motion))
+        self._offer()
         self._context.on_page()
+
+    def _told(self, motion: Iterator[None]) -> Iterator[None]:
+        yield from motion
+        # As a job of its own: until this is through, the motion counts as running, and the keys wait for its end.
+        self._context.worker.post(self._offer)
 
     def _halt(self) -> None:
         """The procedure ends where it is; what was measured stays."""
         self._context.drive.cancel()
-        self._stop.visible = False
         self._context.say("info", self._context.t("base.stopped"))
-        self._show()
+        self.show()
 
     def _measuring(self, run: Run, whole: bool) -> Iterator[None]:
         every = from_deg(float(self._every.value))
         while run.wizard.step is not None:
-            yield from run.by_itself(every, self._show)
+            yield from run.by_itself(every, self.show)
             if not whole:
                 break
-        self._finish(run)
+        self.finish(run)
 
-    def _finish(self, run: Run) -> None:
-        self._stop.visible = False
+    def finish(self, run: Run) -> None:
+        """A step was left: after the last one the relation is worked out."""
         if run.wizard.done and run.relation is None:
             relation = run.solve()
             found = relation is not None and relation.T_base1_base2 is not None
             doubtful = relation is None or any(w.severe for w in relation.warnings)
             words = "base.light_none" if not found else "base.doubtful" if doubtful else "base.solved"
             self._context.say("warning" if doubtful else "good", self._context.t(words))
-        self._show()
-
-    def _turn(self, degrees: float) -> None:
-        run = self._run
-        if run is None or run.wizard.step is None or run.wizard.step.axis == 0:
-            return
-        sight = run.turn_to(from_deg(float(degrees)))
-        self._context.say("info" if sight.seen else "warning", self._context.t(f"base.sight_{sight.reason}"))
-
-    def _measure(self) -> None:
-        run = self._run
-        if run is None or run.wizard.step is None:
-            return
-        sight = run.measure()
-        level = "good" if sight.seen else "warning"
-        self._context.say(level, self._context.t(f"base.sight_{sight.reason}"))
-        self._show()
-
-    def _leave(self) -> None:
-        run = self._run
-        if run is not None and run.wizard.step is not None:
-            run.leave()
-            self._finish(run)
-
-    def _undo(self) -> None:
-        if self._run is not None and self._run.relation is None:
-            self._run.undo()
-            self._show()
+        self.show()
 
     def _meet(self) -> None:
         run = self._run
         if run is not None and run.relation is not None and not self._context.worker.running(_MOTION):
-            self._context.drive.must_not_be_stopped()
-            self._context.drive.errand = self._context.t("errand.meet")
-            self._context.worker.animate(_MOTION, run.meet(self._met))
-            self._context.on_page()
+            self.begin(run.meet(self._met), self._context.t("errand.meet"), by_itself=True)
 
     def _met(self, meeting: Meeting) -> None:
         t = self._context.t
@@ -222,12 +188,13 @@ class _View:
         if run is not None:
             middle = run.drawn_tips().mean(axis=0)
             run.drawing.label("miss", f"{miss} mm", middle + np.array([0.0, 0.0, 0.12]))
-            look(self._context.stage.eyes, (middle + np.array([-0.7, -1.9, 0.9]), middle))
+            self._context.stage.view("whole")  # both arms and where they meet
         self._context.say("good", t("base.met", miss=miss, predicted=predicted))
 
     # What is shown -----------------------------------------------------------------------------------------
 
-    def _show(self) -> None:
+    def show(self) -> None:
+        """Where the procedure stands, and what was found."""
         run, t = self._run, self._context.t
         if run is None:
             return
@@ -239,12 +206,8 @@ class _View:
             else t(f"base.do_{step.kind}", axis=step.axis, robot=step.robot)
         )
         self._next.content = html.paragraph(words, testid="base-next", faint=True)
-        helped = step is not None and self._context.aids.touch
-        self._one.visible = self._all.visible = self._every.visible = helped
-        if step is not None and step.axis:
-            arm = run.cell.arms[step.robot - 1]
-            self._angle.min = float(np.ceil(deg(max(arm.robot.lower[step.axis - 1], -np.pi))))
-            self._angle.max = float(np.floor(deg(min(arm.robot.upper[step.axis - 1], np.pi))))
+        self._offer()
+        self._hand.show(run)
         self._result.content = cards.result(self._context, run)
         self._result.visible = self._give.visible = run.relation is not None
         # What was found comes first; the procedure that led there stands below it.
@@ -253,7 +216,17 @@ class _View:
 
     def numbers(self) -> None:
         """The arm moved, or was stopped: with it the procedure."""
-        self._stop.visible = self._run is not None and self._context.worker.running(_MOTION)
+        self._offer()
+
+    def _offer(self) -> None:
+        """What can be begun while nothing runs, else what stops it."""
+        run, runs = self._run, self._run is not None and self._context.worker.running(_MOTION)
+        helped = run is not None and run.wizard.step is not None and self._context.aids.touch
+        self._stop.visible = runs
+        self._hand.folder.visible = (
+            run is not None and run.relation is None and not (runs and self._by_itself)
+        )
+        self._one.visible = self._all.visible = self._every.visible = helped and not runs
 
     def refresh(self, state: SessionState) -> None:
         """The cell of the session, an exercise's or a free one, is taken up where it was left."""
@@ -263,17 +236,6 @@ class _View:
     def close(self) -> None:
         """The page goes: motions end and the cell is taken down."""
         self._drop()
-
-
-def _whole(cell: TrackerCell, aspect: float) -> tuple[np.ndarray, np.ndarray]:
-    """Eye and centre from which both arms, their circles and the tracker are seen in a window of this shape."""
-    places = np.array(
-        [*(arm.T_world_base.position for arm in cell.arms), cell.tracker.T_world_tracker.position]
-    )
-    low, high = places.min(axis=0), places.max(axis=0)
-    centre = (low + high) / 2.0
-    far = (1.35 * float(np.linalg.norm(high - low)) + 0.6) / min(1.6 * aspect, 1.0)
-    return centre + far * np.array([-0.42, -0.74, 0.52]), centre
 
 
 class BaseScreen:

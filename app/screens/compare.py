@@ -13,7 +13,7 @@ from app.diagnosis.report.wording import measure, verdict_sentence
 from app.diagnosis.result import Diagnosis
 from app.kinematics import RobotModel
 from app.screens._compare import cards
-from app.screens._compare.drawing import Drawing, look_at
+from app.screens._compare.drawing import Drawing, instead
 from app.screens._compare.finding import Search
 from app.screens._compare.given_model import GivenModel
 from app.screens._compare.kept import kept_for
@@ -71,12 +71,11 @@ class _View:
         self._search.stop()
         self._clear()
         self._kept.loaded = loaded
-        self._context.show_instead(self._seen)
+        self._context.show_instead(self._seen, lambda: instead(loaded, self._moments.index))
         self._drawing = Drawing(self._context.stage.scene, loaded)
         factor = min(_FACTORS, key=lambda f: abs(f - loaded.factor))
         self._factor.value = f"× {factor}"
         self._share = 1.0 if loaded.applied else 0.0
-        look_at(self._context.stage.eyes, loaded)
         self._show(loaded, loaded.worst)
         self._context.say(
             "info", self._context.t("compare.loaded", file=loaded.path.name, count=loaded.count)
@@ -98,7 +97,10 @@ class _View:
         if self._drawing is not None:
             self._drawing.update(loaded)
         self._show(loaded, round(place * (loaded.count - 1)))
-        self._context.say(_LEVELS[diagnosis.verdict], verdict_sentence(diagnosis, self._context.language))
+        context = self._context
+        words = verdict_sentence(diagnosis, context.language)
+        context.spoken.remember(words, lambda language: verdict_sentence(diagnosis, language))
+        context.say(_LEVELS[diagnosis.verdict], words)
 
     def _model_changed(self) -> None:
         """Another saved model was brought, or taken away: the shown recording stands beside it."""
@@ -157,7 +159,6 @@ class _View:
         self._clear()
         self._kept.loaded = None
         self._context.show_instead(None)
-        self._context.stage.view("whole")
         for part in (self._moments, self._outcome, self._plots, self._taking):
             part.hide()
         self._about.visible = self._looks.visible = self._close.visible = False

@@ -14,6 +14,7 @@ from app.errors import StorageError, TeachframeError, one_line
 from app.geometry import Pose
 from app.kinematics import IkResult, RobotModel
 from app.panel import Panel
+from app.scene.instead import Instead, Seen
 from app.scene.server import SceneServer
 from app.scene.stage import Stage
 from app.screens.exercising import aids_of, cell_key
@@ -21,6 +22,7 @@ from app.screens.hearing import Hearing
 from app.screens.look import Look
 from app.screens.meeting import meeting
 from app.screens.shelf import Shelf
+from app.screens.spoken import Line, Spoken
 from app.session import AnyAction, Session, SessionState
 from app.session.cell import cell_of
 from app.session.motion.drive import Drive
@@ -29,7 +31,7 @@ from app.session.motion.jogging import Jogging
 from app.session.motion.worker import Job, Worker
 from app.session.state import as_tuple, robot_named
 from app.simulation.world import World
-from app.texts import error_text, text
+from app.texts import error_text
 from app.training.cell import world_of
 
 _LOG = logging.getLogger(__name__)
@@ -63,12 +65,10 @@ class Context:
         self.session, self.shelf, self.look = session, shelf, look
         self._server, self._usual_world, self._build, self.send = server, usual_world, build, send
         self.aids = aids_of(session.state)
-        self.log: list[tuple[float, str, str]] = []
+        self.log, self.spoken = list[Line](), Spoken()
         self.trainee, self.exercise = "", ""
         self.demonstrated: int | None = None  # points a demonstration has shown so far; None where none plays
-        self.seen: Callable[[], tuple[RobotModel, np.ndarray]] | None = (
-            None  # an arm that is seen instead of the own
-        )
+        self.seen: Seen | None = None  # an arm that is seen instead of the own
         self.ui, self.views = Panel(), []
         self.rng = np.random.default_rng(abs(hash(session.name)) if session.name else 0)
         self.worker = Worker(f"session-{session.name[:8]}", self.around)
@@ -79,6 +79,7 @@ class Context:
         self.jogging = Jogging(self.drive)
         self.following = Following(self.drive, self._handle_back)
         self.wanted_screen = ""  # a screen the page is asked to open
+        self.open_screen = "tool"  # the one that is open there
         self.on_page: Callable[[], None] = lambda: None  # something the page shows has changed; any thread
         self._numbers_at = 0.0
         self.stage = self._make_stage()
@@ -133,7 +134,7 @@ class Context:
 
     def t(self, key: str, **fields: Any) -> str:
         """A text in the operator's language; from any thread."""
-        return text(key, self.look.language, **fields)
+        return self.spoken.text(key, self.look.language, fields)
 
     def say(self, level: str, words: str) -> None:
         """The message line, and the log: `info`, `good`, `warning`, `error`; from any thread."""
@@ -164,6 +165,11 @@ class Context:
         """Asks the page to open a screen."""
         self.wanted_screen = screen
         self.on_page()
+
+    def opened(self, screen: str) -> None:
+        """A screen is open at the page: what it proposes is seen in the scene."""
+        self.open_screen = screen
+        self.stage.next_arm.look(screen)
 
     # The arm ----------------------------------------------------------------------------------------------
 
@@ -229,12 +235,12 @@ class Context:
         self.drive.show(self.q)
         self.refresh()
 
-    def show_instead(self, seen: Callable[[], tuple[RobotModel, np.ndarray]] | None) -> None:
-        """Another arm stands in the own one's place, and the read-outs are its own; None brings the own one back."""
-        if seen is not None:
-            self.drive.cancel()
+    def show_instead(self, seen: Seen | None, instead: Callable[[], Instead] | None = None) -> None:
+        """Another arm stands in the own one's place with its own read-outs, `instead` in the cell's; None: back."""
+        self.drive.cancel()
         self.seen = seen
-        self.stage.make_room(seen is not None)
+        self.stage.make_room(instead)
+        self.stage.view("whole")
         self.on_page()
 
     def close_views(self) -> None:
@@ -257,9 +263,10 @@ class Context:
     def _make_stage(self) -> Stage:
         with self._server.atomic():  # one word to the pages instead of one for each part
             self._server.scene.world_axes.visible = False
-            return Stage(
-                self._server, self.world, self.following.event, dark=self.look.dark, handle=self.aids.handle
-            )
+            look, aids, dragged = self.look, self.aids, self.following.event
+            stage = Stage(self._server, self.world, dragged, dark=look.dark, handle=aids.handle)
+            stage.next_arm.look(self.open_screen)
+            return stage
 
     def _own_world(self) -> World:
         """The cell of this arm, as the session has it."""

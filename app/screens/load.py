@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from app.apart import SEARCH, GivenUpError, apart
-from app.errors import ActionRefusedError, TeachframeError
+from app.errors import ActionRefusedError
 from app.panel import Row
 from app.panel import markup as html
 from app.session import SessionState
@@ -37,7 +37,7 @@ _REST = 0.4  # s at each pose of the run that is seen
 
 
 class _View:
-    """Four rows, the run, the result.
+    """The run, what it found, and four rows: what was found stands above them, as what is read.
 
     Args:
         context: where it stands.
@@ -57,12 +57,12 @@ class _View:
         self._run = ui.add_button(t("load.run"), visible=False)
         context.clicked(self._run, self._move)
         self._bar = ui.add_progress(visible=False)
-        self._rows = ui.add_rows()
-        context.chosen(self._rows, self._in_row)
         self._result = ui.add_html("", visible=False)
         self._reveal = ui.add_button(t("load.reveal"), rank="plain", visible=False)
         context.clicked(self._reveal, self._show_truth)
         self._truth = ui.add_html("", visible=False)
+        self._rows = ui.add_rows()
+        context.chosen(self._rows, self._in_row)
         self._again = ui.add_button(t("load.again"), rank="quiet", visible=False)
         context.clicked(self._again, self._anew)
         self._show()
@@ -117,8 +117,7 @@ class _View:
         context, t = self._context, self._context.t
         if context.drive.how == "moving":
             raise ActionRefusedError(t("refused.moving"))
-        others = [q for other, q in self._poses.items() if other != number]
-        turn = min((least_turn(context.model, np.array([q, context.q])) for q in others), default=np.pi)
+        turn = self._turned(number)
         if turn < APART:
             raise ActionRefusedError(
                 t("load.alike", deg=f"{float(deg(turn)):.0f}", aim=f"{float(deg(APART)):.0f}")
@@ -127,6 +126,12 @@ class _View:
             context.do(HangLoad(int(context.rng.integers(_SEEDS))))
         context.do(WeighAt(number, as_tuple(context.q)))
         context.say("good", t("load.recorded", number=number + 1))
+
+    def _turned(self, number: int) -> float:
+        """How far the flange is turned from every pose but this one, at the least [rad]."""
+        model, q = self._context.model, self._context.q
+        others = [pose for other, pose in self._poses.items() if other != number]
+        return min((least_turn(model, np.array([pose, q])) for pose in others), default=np.pi)
 
     def _move(self) -> None:
         """The run: the arm goes through the poses, then what its drives felt is searched."""
@@ -151,23 +156,21 @@ class _View:
         def say(share: float, _: str) -> None:
             context.worker.latest("load.bar", lambda: setattr(self._bar, "value", 100.0 * share))
 
-        def work() -> LoadData | TeachframeError | None:
+        def work() -> LoadData | Exception | None:
             with tempfile.TemporaryDirectory() as folder:
                 asked = (context.model.address, poses, load.seed, Path(folder))
                 try:
                     return apart(weigh, *asked, bounds=SEARCH, say=say, stop=stop)
-                except TeachframeError as error:
+                except Exception as error:
                     return error
 
         context.background(work, lambda found: self._weighed(stop, load, found))
 
-    def _weighed(
-        self, stop: threading.Event, load: Weighing, found: LoadData | TeachframeError | None
-    ) -> None:
+    def _weighed(self, stop: threading.Event, load: Weighing, found: LoadData | Exception | None) -> None:
         if stop is not self._stop or load is not self._load or isinstance(found, GivenUpError):
             return
         self._bar.visible = False
-        if isinstance(found, TeachframeError):
+        if isinstance(found, Exception):
             self._show()
             raise found
         if found is None:
@@ -198,6 +201,9 @@ class _View:
         else:
             words = t("load.ready") if found is None else t("load.read")
         self._next.content = html.paragraph(words, strong=True, testid="load-next")
+        ghost = proposed(self._context.model)[missing[0]] if able and missing else None
+        title = t("load.pose", number=missing[0] + 1) if missing else ""
+        self._context.stage.next_arm.show("load", ghost, title)
         self._result.visible = self._reveal.visible = found is not None
         self._truth.visible = False
         if found is not None:
@@ -220,7 +226,9 @@ class _View:
     def _card(self, found: LoadData) -> str:
         rows = [(self._context.t("load.mass"), f"{found.mass:.3f} kg", f"± {found.mass_half:.3f}")]
         for axis, value, half in zip("XYZ", found.centre, found.centre_half, strict=True):
-            rows.append((axis, f"{mm(value):.1f} mm", f"± {mm(half):.1f}"))
+            rows.append(
+                (self._context.t("load.centre", axis=axis), f"{mm(value):.1f} mm", f"± {mm(half):.1f}")
+            )
         return html.table(rows, head=(self._context.t("load.data"), "", "95%"), testid="load-result")
 
     def _show_truth(self) -> None:
@@ -241,6 +249,12 @@ class _View:
         if state.load is not self._load:
             self._load = state.load
             self._show()
+
+    def numbers(self) -> None:
+        """The arm moved: the key that is pressed next stands out."""
+        if self._record.visible:
+            fit = self._turned(self._missing()[0]) >= APART
+            self._go.rank, self._record.rank = ("plain", "main") if fit else ("main", "plain")
 
     def close(self) -> None:
         """The page goes: what is searched is given up."""

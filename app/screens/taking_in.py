@@ -9,7 +9,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from app.apart import SMALL, apart
-from app.errors import TeachframeError
 from app.panel import Upload
 
 if TYPE_CHECKING:
@@ -44,13 +43,13 @@ def take_small(
     def run() -> Any:
         try:
             return apart(read, path, bounds=SMALL)
-        except TeachframeError as error:
+        except Exception as error:
             return error
         finally:
             shutil.rmtree(folder, ignore_errors=True)
 
     def used(found: Any) -> None:
-        if isinstance(found, TeachframeError):
+        if isinstance(found, Exception):
             raise found
         use(found)
 

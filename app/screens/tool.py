@@ -14,6 +14,7 @@ from app.screens._tool.deciding import Deciding
 from app.screens._tool.direct import DirectEntry
 from app.screens._tool.giving import take_frame
 from app.screens._tool.hand import AXES, STROKE, TOUCHED, Hand, joints_of, next_step
+from app.screens._tool.leading import GHOST, HAND, RECORD, leads
 from app.screens._tool.next_touch import NextTouch
 from app.screens._tool.paper import calculate, play_paper_table, play_upload
 from app.screens._tool.recording import Recording
@@ -27,6 +28,7 @@ from app.session.actions import Delete, Redo, Undo
 from app.session.state import DIRECT
 from app.simulation.pointing import POINTED
 from app.texts import error_text
+from app.training.exercise import begun_exercise
 from app.units import mm
 
 if TYPE_CHECKING:
@@ -61,6 +63,7 @@ class _View:
             history = ui.add_buttons(t("tool.history"), (t("tool.undo"), t("tool.redo")))
             steps = {t("tool.undo"): self._undo, t("tool.redo"): self._redo}
             context.chosen(history, lambda label: steps[label]())
+        self.deciding.take_away()
         with ui.add_folder(t("tool.examples"), expanded=False):
             paper = ui.add_button(t("tool.paper"), hint=t("tool.paper_hint"), rank="plain")
             context.clicked(paper, lambda: play_paper_table(context))
@@ -154,11 +157,13 @@ class _View:
             (touched and self.context.aids.touch) or (step is not None and step.role in AXES)
         )
         self._calculate.visible = not done and (state.mode == DIRECT or bool(state.captures))
-        self._calculate.rank = "main" if step is None else "plain"
+        # Where an exercise asks for touches alone, it is finished next; what they would give may still be looked at.
+        asked = state.running is None or begun_exercise(state.running.begun).goal == "tool"
+        self._calculate.rank = "main" if step is None and asked else "plain"
         for part in (self._direct, self._next_touch, self.deciding):
             part.refresh(state)
         if not done:
-            self._instruct(step, state)
+            self._instruct(step, state, asked)
 
     def _rows(self, state: SessionState) -> tuple[Row, ...]:
         return rows_of(self.context, self._words, state)
@@ -172,14 +177,28 @@ class _View:
         """The arm moved."""
         self._next_touch.numbers()
         self.deciding.numbers()
+        self._stand_out()
 
-    def _instruct(self, step: Step | None, state: SessionState) -> None:
+    def _stand_out(self) -> None:
+        """The key that is pressed next stands out from those beside it."""
+        step, proposal = next_step(self.context), self._next_touch.proposal
+        if step is None or not self._record.visible:
+            return
+        key = leads(self.context, step, None if proposal is None else proposal.q)
+        for button, name in (
+            (self._next_touch.go_button, GHOST),
+            (self._assist, HAND),
+            (self._record, RECORD),
+        ):
+            button.rank = "main" if key == name else "plain"
+
+    def _instruct(self, step: Step | None, state: SessionState, asked: bool) -> None:
         t = self.context.t
         if state.mode == DIRECT:
             self._next.content = html.instruction(t("tool.direct_title"), t("tool.direct_do"))
             return
         if step is None:
-            self._next.content = html.instruction(t("tool.ready"), "")
+            self._next.content = html.instruction(t("tool.ready" if asked else "tool.touched_all"), "")
             return
         step = self._words.step(step)
         self._next.content = html.instruction(t("tool.next", title=step.title), step.instruction)

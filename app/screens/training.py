@@ -6,7 +6,7 @@ import secrets
 import time
 from typing import TYPE_CHECKING, Any
 
-from app.classroom.progress import Lesson, next_lesson, standing
+from app.classroom.progress import Lesson, next_lesson, standings
 from app.screens._training import cards, plots, scoring
 from app.screens._training.lesson import LevelChoice
 from app.screens._training.showing import Showing
@@ -14,7 +14,6 @@ from app.session import SessionState
 from app.session.actions import Finish
 from app.training.cell import begin
 from app.training.exercise import Exercise, begun_exercise, exercises
-from app.training.score import ScoreCard
 
 if TYPE_CHECKING:
     from app.screens.context import Context
@@ -45,9 +44,10 @@ class _View:
         self._list: Any = ui.add_choice(t("training.exercise"), ("-",))
         context.changed(self._list, "exercise", lambda _: self._choose())
         self._level = LevelChoice(context)
-        self._card = ui.add_html("")
+        # Above the task, which is as long as its author wrote it: the key to begin is in view on every screen.
         self._begin = ui.add_button(t("training.begin"))
         context.clicked(self._begin, self._start)
+        self._card = ui.add_html("")
         self.strip = ui.add_strip()
         with self.strip:
             self._task = ui.add_html("")
@@ -55,7 +55,9 @@ class _View:
             self._number = ui.add_number(
                 t("training.number_touch"), 0.0, low=0.0, high=30.0, step=1.0, visible=False
             )
-            context.clicked(ui.add_button(t("training.finish"), rank="plain"), self._finish)
+            self._finish_button = ui.add_button(t("training.finish"), rank="plain")
+            context.clicked(self._finish_button, self._finish)
+            self._sure = False
             context.clicked(ui.add_button(t("training.give_up"), rank="quiet"), self._give_up)
         self._history = ui.add_folder(t("training.history"), visible=False)
         with self._history:
@@ -78,9 +80,7 @@ class _View:
 
     def _fill(self) -> None:
         context = self.context
-        cards_of: dict[str, list[ScoreCard]] = {}
-        for card in context.shelf.records.history(self._trainee):
-            cards_of.setdefault(card.exercise, []).append(card)
+        done = context.shelf.records.history(self._trainee)
         best = context.shelf.records.best(self._trainee)
         # The same exercise may be a lesson of two classes: the first one's helps count.
         self._lessons: dict[str, Lesson] = {}
@@ -92,11 +92,8 @@ class _View:
         self._titles = {}
         for e in (*given, *free):
             self._titles[cards.title(context, e, best.get(e.key), self._lessons.get(e.key))] = e
-        now = time.time()
         ordered = [self._lessons[e.key] for e in given]
-        ahead = next_lesson(
-            ordered, {one.id: standing(one, cards_of.get(one.key, []), now) for one in ordered}
-        )
+        ahead = next_lesson(ordered, standings(ordered, done, time.time()))
         before = context.exercise if context.exercise in {e.key for e in (*given, *free)} else ""
         before = before or (ahead.key if ahead else (*given, *free)[0].key)
         self._list.options = tuple(self._titles)
@@ -158,9 +155,19 @@ class _View:
         self._start()
 
     def _finish(self) -> None:
+        context, running = self.context, self.context.session.state.running
+        if running is not None and not (self._sure or cards.done(context.session.state, running)):
+            self._ask_again(True)  # what is missing scores nothing, and an attempt that is finished is over
+            context.say("warning", context.t("training.undone"))
+            return
         answer = self._answers.get(str(self._answer.value), "") if self._answer.visible else ""
         number = int(self._number.value) if self._number.visible else 0
         scoring.finish(self.context, Finish(answer, number))
+
+    def _ask_again(self, sure: bool) -> None:
+        """Finishing what is not done takes a second press, as accepting a red result does."""
+        self._sure = sure
+        self._finish_button.label = self.context.t("training.finish_sure" if sure else "training.finish")
 
     def _give_up(self) -> None:
         scoring.finish(self.context, Finish(given_up=True))
@@ -186,9 +193,13 @@ class _View:
         self.strip.visible = running is not None
         if running is None:
             self._answer.visible = self._number.visible = False
+            self._ask_again(False)
             return
         self._history.visible = False
         self._task.content = cards.running(self.context, running)
+        if done := cards.done(state, running):
+            self._ask_again(False)
+        self._finish_button.rank = "main" if done else "plain"
         question = begun_exercise(running.begun).question
         if question is not None and not self._answer.visible:
             t = self.context.t

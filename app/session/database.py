@@ -23,6 +23,7 @@ FILE = "teachframe.sqlite"
 #: Drivers for URLs that name only the kind of database.
 _DRIVERS = {"postgresql": "postgresql+psycopg", "postgres": "postgresql+psycopg"}
 _BUSY = 5.0  # seconds another program may hold the file or the table before an action fails: a person waits for it
+_DEADLOCK = "40P01"  # what PostgreSQL says where two wait for each other: each may come through alone
 _ANSWER = 10  # whole seconds a database server has to answer when it is first spoken to
 
 #: All tables, those of layers above too; `migrations` makes them.
@@ -111,10 +112,13 @@ class Database:
         except IntegrityError:
             raise ConflictError("another program writes to the same session") from None
         except SQLAlchemyError as error:
+            if getattr(getattr(error, "orig", None), "sqlstate", "") == _DEADLOCK:
+                raise ConflictError("another program writes to the same sessions") from None
             raise StorageError(f"{self.name} did not keep this ({_said(error)})") from None
 
-    def write(self, job: Callable[[Connection], None]) -> None:
-        """Does `job` in a transaction, perhaps with others' jobs: a commit is shared by all who wait for one.
+    def write(self, job: Callable[[Connection], object]) -> None:
+        """Does `job` in a transaction, perhaps with others' jobs: a commit is shared by all who wait for one. It may be
+        done twice: where another's fails, each is done alone.
 
         Raises:
             ConflictError: another program writes there; the others' jobs are kept.

@@ -13,7 +13,7 @@ import os
 import secrets
 import socket
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from sqlalchemy import Column, Connection, Integer, Row, String, Table, delete, insert, select, update
@@ -63,29 +63,47 @@ class Leases:
         seen: tuple[str, int] | None = None
         since = time.monotonic()
         while True:
-            with contextlib.suppress(ConflictError), self._database.begin() as connection:
+            with self._database.begin() as connection:
                 row = connection.execute(select(LEASES).where(LEASES.c.session == session)).first()
-                if row is None:
-                    self.begin(connection, session)
+            if row is not None and (row.worker, row.beat) != seen:
+                seen, since = (row.worker, row.beat), time.monotonic()
+            if row is not None and row.worker == self.me:
+                return
+            if row is None or time.monotonic() - since >= STILL or _is_gone(row.worker):
+                if self._taken(session, row):
                     return
-                if row.worker == self.me:
-                    return
-                if (row.worker, row.beat) != seen:
-                    seen, since = (row.worker, row.beat), time.monotonic()
-                here = (
-                    (LEASES.c.session == session)
-                    & (LEASES.c.worker == row.worker)
-                    & (LEASES.c.beat == row.beat)
-                )
-                if time.monotonic() - since >= STILL or _is_gone(row.worker):
-                    mine = {"worker": self.me, "beat": 0, "wanted": ""}
-                    if connection.execute(update(LEASES).where(here).values(**mine)).rowcount:
-                        return
-                elif row.wanted != self.me:
-                    connection.execute(update(LEASES).where(here).values(wanted=self.me))
+            elif row.wanted != self.me:
+                self._say(session, row, wanted=self.me)
             if time.monotonic() > end:
                 raise StorageError("this session is open elsewhere")
             time.sleep(_LOOK)
+
+    def _taken(self, session: str, row: Row | None) -> bool:
+        """True where nobody else took it since it was seen so; `row` None where nobody had it."""
+        if row is not None:
+            return self._say(session, row, worker=self.me, beat=0, wanted="")
+        return self._kept(lambda connection: self.begin(connection, session))
+
+    def _say(self, session: str, row: Row, **values: object) -> bool:
+        """Changes the row of a session; False where it is not as it was seen."""
+        seen = _held(session, row.worker) & (LEASES.c.beat == row.beat)
+        changed = 0
+
+        def job(connection: Connection) -> None:
+            nonlocal changed
+            changed = connection.execute(update(LEASES).where(seen).values(**values)).rowcount
+
+        # After a process was killed all of its people come at once: who asks SQLite for its lock one by one is passed
+        # by the others, and some did not get it in five seconds.
+        return self._kept(job) and changed > 0
+
+    def _kept(self, job: Callable[[Connection], object]) -> bool:
+        """False where another process was there first."""
+        try:
+            self._database.write(job)
+        except ConflictError:
+            return False
+        return True
 
     def process(self, session: str) -> int | None:
         """The other process of this machine that holds a session; None where none does.
@@ -102,8 +120,10 @@ class Leases:
 
     def let(self, session: str) -> None:
         """The session is not held here any more. A database that does not answer is no error: the beats stand still."""
-        with contextlib.suppress(StorageError), self._database.begin() as connection:
-            connection.execute(delete(LEASES).where(_mine(session, self.me)))
+        with contextlib.suppress(StorageError):
+            self._database.write(
+                lambda connection: connection.execute(delete(LEASES).where(_held(session, self.me)))
+            )
 
     def beat(self) -> tuple[set[str], set[str]]:
         """One beat for all sessions held; those held, and those of them that another process wants.
@@ -134,7 +154,7 @@ def check_held(connection: Connection, session: str, worker: str) -> None:
         raise ConflictError("this session is open elsewhere now")
 
 
-def _mine(session: str, worker: str):
+def _held(session: str, worker: str):
     return (LEASES.c.session == session) & (LEASES.c.worker == worker)
 
 

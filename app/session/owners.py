@@ -10,7 +10,7 @@ import hashlib
 import secrets
 import time
 
-from sqlalchemy import Column, Float, String, Table, delete, func, insert, select, update
+from sqlalchemy import Column, Connection, Float, String, Table, delete, func, insert, select, update
 
 from app.session.database import ACTIONS, METADATA, SESSIONS, Database
 
@@ -47,15 +47,18 @@ class Owners:
 
     def give(self, session: str, owner: str, title: str = "") -> None:
         """The session belongs to this person from now on."""
-        with self._database.begin() as connection:
+        row = {"session": session, "owner": owner, "title": title[:LONGEST_TITLE], "opened": time.time()}
+
+        def given(connection: Connection) -> None:
             connection.execute(delete(OWNED).where(OWNED.c.session == session))
-            row = {"session": session, "owner": owner, "title": title[:LONGEST_TITLE], "opened": time.time()}
             connection.execute(insert(OWNED), row)
+
+        self._database.write(given)
 
     def opened(self, session: str) -> None:
         """Its owner has it open now."""
-        with self._database.begin() as connection:
-            connection.execute(update(OWNED).where(OWNED.c.session == session).values(opened=time.time()))
+        now = update(OWNED).where(OWNED.c.session == session).values(opened=time.time())
+        self._database.write(lambda connection: connection.execute(now))
 
     def rename(self, session: str, title: str) -> None:
         """Another name for people."""

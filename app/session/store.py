@@ -78,10 +78,13 @@ class Store:
     def create(self, *, robot: str | None = None, leases: Leases | None = None) -> Session:
         """A new, empty session; held where there are leases."""
         header = Header(secrets.token_hex(16), time.time())
-        with self.database.begin() as connection:
+
+        def made(connection: Connection) -> None:
             connection.execute(insert(SESSIONS), {"name": header.session, "created": header.created})
             if leases is not None:
                 leases.begin(connection, header.session)
+
+        self.database.write(made)
         return Session(_Journal(self.database, Recorded(header, ()), leases), robot=robot)
 
     def open(self, name: str, *, leases: Leases | None = None) -> Session:

@@ -19,7 +19,7 @@ from app.errors import ConflictError, StorageError
 
 @dataclass(eq=False)
 class _Write:
-    job: Callable[[Connection], None]
+    job: Callable[[Connection], object]
     done: bool = False
     # Until it is known: whoever was to write it may have been ended in the midst of it.
     error: Exception | None = field(default_factory=lambda: StorageError("this was not kept"))
@@ -37,7 +37,7 @@ class Together:
         self._lock, self._turn = threading.Lock(), threading.Lock()
         self._waiting: list[_Write] = []
 
-    def write(self, job: Callable[[Connection], None]) -> None:
+    def write(self, job: Callable[[Connection], object]) -> None:
         """Does `job` in a transaction, perhaps with others' jobs; on the disk when this returns.
 
         Raises:

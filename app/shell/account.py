@@ -90,7 +90,12 @@ class Account:
             self._leave(person.owner)
             erase(self._people, person, person.id)
 
-        return await self._do(request, "erase", gone)
+        answer = await self._do(request, "erase", gone)
+        if answer.status_code != 303:
+            return answer
+        answer = to_login(request, left=True)
+        self._entrance.take(answer, request)
+        return answer
 
     def _prove(self, visitor: Visitor, said: dict[str, str], request: Request) -> None:
         """Raises PersonRefusedError unless the secret is typed once more: the computer may be another's by now."""

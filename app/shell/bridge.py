@@ -13,7 +13,7 @@ from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from app.shell.security import HEADERS, SCENE_POLICY
 from app.workers.live import Live
-from app.workers.looking_on import without_handle
+from app.workers.looking_on import for_onlooker
 
 _OTHER_VERSION, _GONE = 1002, 1001  # codes with which the scene's socket is closed
 #: The only thing a page may ask of the scene: a resolution that software can draw. `?websocket=` would point it away.
@@ -53,9 +53,9 @@ async def scene_socket(page: WebSocket, live: Live) -> None:
     await _shown(page, live, _Both(page))
 
 
-async def watch_scene(page: WebSocket, live: Live) -> None:
-    """A session's scene for somebody who looks on; of what his page says, nothing gets there."""
-    await _shown(page, live, _Down(page))
+async def watch_scene(page: WebSocket, live: Live, *, dark: bool) -> None:
+    """A session's scene for somebody who looks on, on a dark page or a light one; what his page says gets nowhere."""
+    await _shown(page, live, _Down(page, dark))
 
 
 class _Both:
@@ -72,10 +72,14 @@ class _Both:
 
 
 class _Down(_Both):
-    """Frames without a handle, to the page alone."""
+    """Frames for somebody who looks on, to the page alone."""
+
+    def __init__(self, page: WebSocket, dark: bool):
+        super().__init__(page)
+        self._dark = dark
 
     async def send(self, frame: bytes, /) -> None:
-        await super().send(without_handle(frame))
+        await super().send(for_onlooker(frame, dark=self._dark))
 
     async def recv(self) -> bytes:
         while True:

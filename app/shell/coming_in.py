@@ -12,11 +12,11 @@ from starlette.routing import Route
 
 from app.errors import PersonRefusedError
 from app.people import People, Person
-from app.people.limits import HASHES, WAITING
+from app.people.limits import HASHES, IDLE, LOGIN, WAITING
 from app.people.refusals import refused
 from app.shell.entrance import Entrance
 from app.shell.forms import filled, language_of, page, remember
-from app.shell.security import HEADERS, LOOK_COOKIE
+from app.shell.security import COOKIE, HEADERS, LOOK_COOKIE
 
 #: Why not -> status of the answer; others are 400.
 _STATUS = {"wrong": 401, "locked": 403, "slowly": 429, "busy": 503}
@@ -55,7 +55,8 @@ class ComingIn:
     async def _answer(
         self, request: Request, name: str, come: Callable[[dict[str, str], str], Person]
     ) -> Response:
-        fields = {"said": dict(request.query_params), "outside": self.outside}
+        hours = {"rest": int(IDLE // 3600), "most": int(LOGIN // 3600)}
+        fields = {"said": dict(request.query_params), "outside": self.outside, "hours": hours}
         if request.method == "GET":
             return page(self._entrance, request, name, **fields)
         said = await filled(self._entrance, request)
@@ -102,14 +103,15 @@ class ComingIn:
         await asyncio.to_thread(self._people.logins.end, visitor.secret)
         if visitor.person is not None:
             await asyncio.to_thread(self._people.audit.note, visitor.person.id, "log_out")
-        answer = to_login(request)
+        answer = to_login(request, left=True)
         self._entrance.take(answer, request)
         return answer
 
 
-def to_login(request: Request) -> Response:
-    """The log-in page instead."""
-    return RedirectResponse(f"{request.scope.get('root_path', '')}/login", 303, HEADERS)
+def to_login(request: Request, *, left: bool = False) -> Response:
+    """The log-in page instead; who was logged in reads there that it has ended, unless he `left` himself."""
+    ended = "?ended=1" if request.cookies.get(COOKIE) and not left else ""
+    return RedirectResponse(f"{request.scope.get('root_path', '')}/login{ended}", 303, HEADERS)
 
 
 def stale() -> PersonRefusedError:

@@ -68,7 +68,12 @@ class Entrance:
 
         def look_up() -> Person | None:
             id = people.logins.person(secret, alive=alive)
-            return None if id is None else people.get(id)
+            if id is not None:
+                return people.get(id)
+            ended = people.logins.ran_out(secret)
+            if ended is not None:
+                people.audit.note(ended, "log_in_ended")
+            return None
 
         person = await asyncio.to_thread(look_up)
         return None if person is None else Visitor(person.owner, secret, person)
@@ -108,7 +113,8 @@ class Entrance:
         """Hands the browser its secret."""
         named = self.people is not None
         value = signed(self.key, secret) if named else secret
-        self.set(answer, asked, COOKIE, value, int(LOGIN) if named else _REMEMBERED)
+        # Longer than it counts: who comes back with one that has ended is told so.
+        self.set(answer, asked, COOKIE, value, 2 * int(LOGIN) if named else _REMEMBERED)
 
     def set(self, answer: Response, asked: HTTPConnection, name: str, value: str, seconds: int) -> None:
         """A cookie that scripts and other sites do not see, and that goes over TLS alone where we came by it."""

@@ -12,7 +12,7 @@ import secrets
 from typing import Any
 from urllib.parse import parse_qsl, quote, unquote
 
-from starlette.requests import Request
+from starlette.requests import HTTPConnection, Request
 from starlette.responses import HTMLResponse, Response
 
 from app.errors import TeachframeError
@@ -65,13 +65,13 @@ def page(
         policy: what the page may load; without a word no script.
         fields: for the template.
     """
-    language, look = language_of(request), _look(request)
+    language = language_of(request)
     cookie = request.cookies.get(FORM_COOKIE) or secrets.token_urlsafe(24)
     content = _PAGES.get_template(f"{name}.html").render(
         t=lambda key, **details: text(key, language, **details),
         language=language,
         languages=languages(),
-        dark=look.get("dark") is True,
+        dark=is_dark(request),
         root=request.scope.get("root_path", ""),
         here=request.url.path,
         token=_token(entrance, request, cookie),
@@ -120,7 +120,12 @@ def _accepted(request: Request) -> str:
     return request.headers.get("accept-language", "")[:200]
 
 
-def _look(request: Request) -> dict[str, Any]:
+def is_dark(request: HTTPConnection) -> bool:
+    """True where the pages of this browser are dark."""
+    return _look(request).get("dark") is True
+
+
+def _look(request: HTTPConnection) -> dict[str, Any]:
     """How the pendant's page looked last in this browser: its own words, not trusted."""
     try:
         kept = json.loads(unquote(request.cookies.get(LOOK_COOKIE, "")))

@@ -111,9 +111,12 @@ class Front:
                 await writer.drain()
                 return
             number, streams = found
-            process = await self._ask(
-                asked.head(address, secure=self._secure), number, reader, writer, streams
-            )
+            try:
+                head = asked.head(address, secure=self._secure)
+                process = await self._ask(head, number, reader, writer, streams)
+            finally:
+                if known is None:
+                    self.spread.stranger(number, -1)
             other = None if process is None else self._number(process)
             if other is not None:
                 streams = await asyncio.open_unix_connection(str(self._sockets[other]), limit=LARGEST_HEAD)
@@ -157,10 +160,23 @@ class Front:
         end = time.monotonic() + _WAIT
         refused: set[int] = set()
         while True:
+            if (
+                not self.spread.ready
+            ):  # it starts: nobody is given to a worker that may not be the first to come
+                if time.monotonic() > end:
+                    return None
+                await asyncio.sleep(_LOOK)
+                continue
             number = self.spread.worker(known, refused)
+            if known is None:
+                self.spread.stranger(number)
             try:
                 streams = await asyncio.open_unix_connection(str(self._sockets[number]), limit=LARGEST_HEAD)
-            except OSError:
+            except BaseException as error:
+                if known is None:
+                    self.spread.stranger(number, -1)
+                if not isinstance(error, OSError):
+                    raise
                 refused.add(number)
                 if len(refused) == len(self._sockets):
                     refused.clear()

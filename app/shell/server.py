@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+import functools
 import gc
 import socket
 import threading
 import time
 from collections.abc import AsyncIterator, Callable, Mapping
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
@@ -39,12 +41,15 @@ from app.shell.provider import Provider
 from app.shell.security import HEADERS, LOOK_COOKIE, PAGE_POLICY, Doors
 from app.shell.unavailable import unavailable
 from app.shell.way import Way
-from app.shell.wire import Wire
+from app.shell.wire import Sockets, Wire
 from app.shell.words import NOT_KNOWN, Words
 from app.workers.hub import LINGER, Hub
 from app.workers.live import Live
 
 PAGES = Path(__file__).parent / "pages"
+_AGAIN = 1013  # code with which a socket is closed whose page may try again in a moment
+#: Sessions that are opened at once; who is waited for by a lease or a disk keeps so many of the others waiting.
+_OPENING = 8
 _STARTING = 20.0  # seconds a server has to come up
 
 
@@ -73,7 +78,7 @@ class Shell:
         fronted: bool = False,
     ):
         self.hub, self._drops = hub, Drops(Tries(hub.store.database))
-        self._entrance = Entrance(people)
+        self._entrance, self._opening = Entrance(people), ThreadPoolExecutor(_OPENING, "opening")
         routes: list[BaseRoute] = [
             Route("/", self._home),
             Route("/state", self._state),
@@ -104,6 +109,7 @@ class Shell:
     async def _life(self, _: Starlette) -> AsyncIterator[None]:
         yield
         await asyncio.to_thread(self.hub.close)
+        self._opening.shutdown(wait=False)
         self._drops.close()
 
     async def _home(self, request: Request) -> Response:
@@ -151,33 +157,33 @@ class Shell:
         await (page.close(NOT_KNOWN) if live is None else scene_socket(page, live))
 
     async def _words(self, page: WebSocket) -> None:
-        try:
-            visitor = await self._entrance.let(page, "work")
-            if visitor is None:
-                await page.close(NOT_KNOWN)
-                return
-            live = await self._enter(page, visitor)
-        except TeachframeError:
-            await page.close(1013)  # try again later
+        visitor = await self._entrance.let(page, "work")
+        if visitor is None:
+            await page.close(NOT_KNOWN)
             return
+        live = await self._enter(page, visitor)
         await Words(page, live, self.hub, self._entrance, visitor).run()
 
     async def _enter(self, asked: HTTPConnection, visitor: Visitor) -> Live:
-        # A page's sockets wait for no thread behind those whose sessions are still to be opened.
+        # On threads for this alone: whoever asks for something else waits for none of them.
         live = self.hub.find(visitor.owner)
         if live is not None:
             return live
         look = asked.cookies.get(LOOK_COOKIE)
-        return await asyncio.to_thread(self.hub.enter, visitor.owner, look, visitor.person)
+        enter = functools.partial(self.hub.enter, visitor.owner, look, visitor.person)
+        return await asyncio.get_running_loop().run_in_executor(self._opening, enter)
 
     async def _known(self, asked: HTTPConnection, deed: str) -> Live | None:
         visitor = await self._entrance.let(asked, deed)
         return None if visitor is None else self.hub.find(visitor.owner)
 
 
-def _later(_: Request, error: Exception) -> Response:
+async def _later(asked: Request | WebSocket, error: Exception) -> Response | None:
     """A full disk, a locked database: it may be gone in a moment."""
     assert isinstance(error, TeachframeError)
+    if isinstance(asked, WebSocket):
+        await asked.close(_AGAIN)
+        return None
     return unavailable(error)
 
 
@@ -237,7 +243,7 @@ class PendantServer:
             log_level="warning",
             access_log=False,
             http=Wire,
-            ws="websockets-sansio",
+            ws=Sockets,
             ws_max_size=1 << 20,
             ws_per_message_deflate=False,  # packing a scene for twenty pages took longer than sending it
             ws_ping_interval=20.0,

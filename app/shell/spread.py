@@ -33,6 +33,20 @@ class Spread:
     def __init__(self, count: int, ready: Callable[[int], bool]):
         self._count, self._ready = count, ready
         self.known: dict[str, Known] = {}
+        self._strangers = [0] * count
+
+    @property
+    def ready(self) -> bool:
+        """True while any worker runs."""
+        return any(self._ready(number) for number in range(self._count))
+
+    def stranger(self, number: int, count: int = 1) -> None:
+        """A browser without a cookie is at this worker; -1: it is there no more.
+
+        Until it has got its cookie nobody else knows of it: a class that came in at one moment would all be given to
+        the same worker.
+        """
+        self._strangers[number] += count
 
     def find(self, key: str) -> Known | None:
         """What is remembered of a browser; None for one without a cookie."""
@@ -76,7 +90,8 @@ class Spread:
         that was just started would get all of them, and the last would wait for the others.
         """
         now = time.monotonic()
-        counts = {n: [0, 0] for n in range(self._count) if self._ready(n) and n not in but}
+        here = [n for n in range(self._count) if self._ready(n) and n not in but]
+        counts = {n: [self._strangers[n], self._strangers[n]] for n in here}
         for known in self.known.values():
             if known.worker in counts and (known.open or known.last > now - _IDLE):
                 counts[known.worker][0] += known.came > now - _OPENING

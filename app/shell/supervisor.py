@@ -6,6 +6,7 @@ import asyncio
 import contextlib
 import ipaddress
 import logging
+import math
 import multiprocessing
 import os
 import shutil
@@ -27,6 +28,7 @@ from app.shell.front import LARGEST_HEAD, Front
 from app.shell.worker import Plan, work
 
 _ENDING = 8.0  # seconds a worker has to keep where its arms stand
+_TOGETHER = 5.0  # seconds the first worker waits for the others when all are started
 _SHORT = 10.0  # seconds: one that ended sooner is started again after a pause that doubles, up to the longest
 _PAUSE, _LONGEST = 0.1, 10.0
 #: Workers are forked from a process that has read the program once and does nothing else; elsewhere (Windows) each
@@ -57,13 +59,24 @@ class Supervisor:
         sockets = [worker.path for worker in self._workers]
         self._front = Front(
             sockets,
-            lambda n: self._workers[n].ready,
+            self._ready,
             self._number,
             _trusted(way.proxy),
             secure=way.certificate is not None,
             flow=flow,
         )
         self._ending = asyncio.Event()
+        self._first = math.inf  # when the first worker was ready, by the monotonic clock
+        self._begun = False  # people are taken in
+
+    def _ready(self, number: int) -> bool:
+        """True where a worker runs. None does before all have come up: the first would get everybody who waits."""
+        if not self._begun:
+            up = [worker.ready for worker in self._workers]
+            if any(up):
+                self._first = min(self._first, time.monotonic())
+            self._begun = all(up) or time.monotonic() - self._first > _TOGETHER
+        return self._begun and self._workers[number].ready
 
     def _ended(self, number: int) -> None:
         self._front.spread.ended(number - 1)

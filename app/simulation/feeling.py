@@ -39,21 +39,31 @@ class Feeling:
     """
 
     def __init__(self, world: World, held: Sequence[Shape], obstacles: Sequence[Shape]):
-        self._world = world
         T_tool_flange = default_tool(world.robot).inverse()
         moved = Pose.of(None, world.p_base_spike - world.p_base_spike_drawn)
-        self._contact = Contact(
+        contact = Contact(
             [s.moved(0, T_tool_flange) for s in held if s.link.replace("_", " ") == "tool tip"],
             [s.moved(0, moved) for s in obstacles if s.link == "spike"],
         )
+        self._begin(world, contact)
+
+    def again(self) -> Feeling:
+        """One for another arm in the same cell, or for a way that is only looked at: nothing felt yet."""
+        out = Feeling.__new__(Feeling)
+        out._begin(self._world, self._contact.again())
+        return out
+
+    def _begin(self, world: World, contact: Contact) -> None:
+        self._world, self._contact = world, contact
         self._direction: np.ndarray | None = None  # of the touch that stopped the tip
         self._nearing = self._leaving = False
         self._approach = np.zeros(3)  # the last direction in which it came nearer
         self._at = np.zeros(0)
+        self._clear = 0.0  # m that the tip may move from there and feel nothing
 
     def leave(self, q: np.ndarray) -> None:
         """A way begins at q (n,): where that is a touch, the tip may come nearer still on its way out of it."""
-        self._leaving = self._world.touching(q)
+        self._leaving, self._clear = self._world.touching(q), 0.0
 
     def along(self, start: np.ndarray, end: np.ndarray, way: float) -> tuple[float, Felt]:
         """How much of the straight joint way from start to end (n,) is free, and what is felt there.
@@ -64,28 +74,43 @@ class Feeling:
         Returns:
             Share of the way, 0..1, and "" where nothing stops it.
         """
-        world = self._world
+        world, follows = self._world, np.array_equal(start, self._at)
+        if follows and self._clear > way:
+            self._clear, self._at = self._clear - way, end
+            return 1.0, ""
         before = world.tip(start)
         distance = self._from_point(before)
         if distance - way > _NEAR:
-            self._direction, self._nearing, self._at = None, False, end
+            self._direction, self._nearing, self._at, self._clear = None, False, end, distance - way - _NEAR
             return 1.0, ""
-        if not np.array_equal(start, self._at):
-            self._nearing = False
+        self._nearing = self._nearing and follows
         depth = self._contact.distance(before)
         moved = np.linalg.norm(world.tip(end).position - before.position)
-        steps = 1 + int(_CURVED * moved / _STEP)
-        for k in range(1, steps + 1):
+        steps, k = 1 + int(_CURVED * moved / _STEP), 0
+        while k < steps:
+            # Nothing of the tip moves further than `way / steps` a step: so many are clear of the spike for sure.
+            clear = min(int(self._clearance(distance, depth) * steps / max(way, _STILL)), steps - k)
+            k += max(clear, 1)
             tip = world.tip(start + (end - start) * (k / steps))
             moved, now = tip.position - before.position, self._from_point(tip)
             deeper = self._contact.distance(tip) if now < _NEAR else np.inf
             felt = self._stopped(moved, distance, now, depth, deeper)
             if felt:
-                self._at = start + (end - start) * ((k - 1) / steps)
+                self._at, self._clear = start + (end - start) * ((k - 1) / steps), 0.0
                 return (k - 1) / steps, felt
             before, distance, depth = tip, now, deeper
-        self._at = end
+        self._at, self._clear = end, self._clearance(distance, depth)
         return 1.0, ""
+
+    def _clearance(self, distance: float, depth: float) -> float:
+        """m that the tip may move wherever it likes and feel nothing; 0 within a touch.
+
+        Args:
+            distance: of the tip to the spike's point; depth to the spike's end, both [m].
+        """
+        if self._direction is not None or self._leaving:
+            return 0.0
+        return distance - _NEAR if distance >= _NEAR else min(depth, distance - self._world.contact_distance)
 
     def _from_point(self, tip: Pose) -> float:
         return float(np.linalg.norm(tip.position - self._world.p_base_spike))

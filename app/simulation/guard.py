@@ -67,11 +67,12 @@ class Guard:
     Args:
         world: what is true in the cell.
         bodies: what can be hit in it.
+        feeling: of tip and spike there; one of its own unless given.
     """
 
-    def __init__(self, world: World, bodies: Bodies):
+    def __init__(self, world: World, bodies: Bodies, feeling: Feeling | None = None):
         self.world, self._bodies = world, bodies
-        self._feeling = Feeling(world, bodies.held, bodies.obstacles)
+        self._feeling = feeling or Feeling(world, bodies.held, bodies.obstacles)
         self._levers = _levers(world.robot, float(np.linalg.norm(world.T_flange_tool_true.position)))
         self._looked: tuple[np.ndarray, dict[tuple[str, str], float]] | None = None  # the pose looked at last
 
@@ -109,7 +110,7 @@ class Guard:
 
     def free(self, start: np.ndarray, end: np.ndarray) -> Stop | None:
         """What is in the way from start to end, other than that the tip ends on the spike; None where nothing is."""
-        watch = Guard(self.world, self._bodies)
+        watch = Guard(self.world, self._bodies, self._feeling.again())
         watch._feeling.leave(start)
         at, stop = watch.advance(start, end)
         world = self.world

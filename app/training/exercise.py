@@ -190,7 +190,7 @@ def parse_exercise(text: str, key: str, file: str | Path) -> Exercise:
         exercise = msgspec.convert({"key": key, **msgspec.toml.decode(text)}, Exercise)
     except (msgspec.DecodeError, ValueError) as error:
         raise FileFormatError(
-            f"not an exercise ({error})", file=file, expected="see app/training/exercise.py"
+            f"not an exercise ({error})", file=file, expected="the fields of a file in static/exercises"
         ) from None
     try:
         _check(exercise)

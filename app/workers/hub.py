@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import logging
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import replace
+from weakref import WeakValueDictionary
 
 from app.apart import prepare
 from app.classroom import Room
@@ -21,6 +23,7 @@ from app.session.leases import BEAT, Leases
 from app.session.owners import Owners
 from app.simulation.world import World, default_world
 from app.workers.attending import Attending
+from app.workers.idle import Idle
 from app.workers.live import Live
 
 _LOG = logging.getLogger(__name__)
@@ -33,7 +36,6 @@ READERS = (
     "app.calibration.exchange",
     "app.session.points",
 )
-MOST_LIVE = 64  # sessions open at once
 
 
 class Hub:
@@ -69,9 +71,8 @@ class Hub:
         self._at: dict[str, str] = {}  # owner -> session that is open for him
         self._people: dict[str, Person | None] = {}  # owner -> who he is
         self._pages: dict[str, object] = {}  # session -> the page that shows it
-        self._timers: dict[str, threading.Timer] = {}
-        self._doors = [threading.Lock() for _ in range(MOST_LIVE)]
-        self._coming: set[str] = set()  # sessions that are being opened
+        self._idle = Idle(lambda name: self._forget(name, idle=True))
+        self._doors: WeakValueDictionary[str, threading.Lock] = WeakValueDictionary()  # by owner
         self._closed = False
         self.attending = Attending(
             self.room, lambda: self.lives, lambda live: live.session.name in self._pages
@@ -100,16 +101,11 @@ class Hub:
             if live is not None:
                 return live
             name = self.owners.latest(owner)
-            with self._lock:
-                self._coming.add(name or "")
-            try:
+            with self._kept(name):
                 session, how = self._session(owner, name)
                 with self._lock:
                     self._people[owner] = person
-                live = self._open(session, owner, Look.from_cookie(look))
-            finally:
-                with self._lock:
-                    self._coming.discard(name or "")
+                live = self._open(session, owner, Look.from_cookie(look), expected=how == "back")
             live.greet(how)
             return live
 
@@ -129,13 +125,13 @@ class Hub:
             self._forget(live.session.name)
 
     def arrive(self, live: Live, page: object) -> None:
-        """A page shows the session from now on; the one before lets go."""
+        """A page shows the session from now on; the one before lets go. One that was closed meanwhile shows nothing."""
         with self._lock:
             name = live.session.name
-            self._pages[name] = page
-            timer = self._timers.pop(name, None)
-        if timer is not None:
-            timer.cancel()
+            if self._live.get(name) is live:
+                self._pages[name] = page
+                self._idle.end(name)
+                live.let_go()
 
     def shows(self, live: Live, page: object) -> bool:
         """True while this page is the one that shows the session."""
@@ -151,7 +147,7 @@ class Hub:
             live.let_go()
             if name not in self._live or self._closed:
                 return
-            self._forget_in(self._linger, name)
+            self._idle.begin(name, self._linger)
 
     def in_use(self, name: str) -> bool:
         """True where a page shows this session now."""
@@ -169,17 +165,16 @@ class Hub:
         with self._lock:
             self._closed = True
             lives, self._live = list(self._live.values()), {}
-            timers, self._timers = list(self._timers.values()), {}
-        for timer in timers:
-            timer.cancel()
+            self._idle.stop()
         self._ending.set()
         for live in lives:
             live.close()
             self._leases.let(live.session.name)
 
     def _door(self, owner: str) -> threading.Lock:
-        """Held by whoever opens a session for this person."""
-        return self._doors[hash(owner) % len(self._doors)]
+        """Held by whoever opens or closes a session of this person."""
+        with self._lock:
+            return self._doors.setdefault(owner, threading.Lock())
 
     def _session(self, owner: str, name: str | None) -> tuple[Session, str]:
         how = "new"
@@ -189,13 +184,15 @@ class Hub:
         if name is not None and self.store.has(name):
             try:
                 return self.store.open(name, leases=self._leases), "back"  # the one opened last still is
+            except StorageError:
+                raise  # it may be read in a moment: it is not lost
             except TeachframeError:
                 how = "lost"
         session = self.store.create(robot=self._robot, leases=self._leases)
         self.owners.give(session.name, owner)
         return session, how
 
-    def _open(self, session: Session, owner: str, look: Look) -> Live:
+    def _open(self, session: Session, owner: str, look: Look, *, expected: bool) -> Live:
         person = self._people.get(owner)
         shelf = Shelf(
             self.store,
@@ -214,9 +211,7 @@ class Hub:
                 self._live[session.name] = live
                 self._at[owner] = session.name
                 # Who asks for the page and never comes in keeps no session open.
-                if self._unvisited is not None:
-                    self._forget_in(self._unvisited, session.name)
-                self._make_room()
+                self._idle.begin(session.name, self._unvisited, expected=expected)
                 return live
         live.close()
         self._leases.let(session.name)
@@ -225,16 +220,6 @@ class Hub:
     def _lessons(self, person: str) -> list[Lesson]:
         return [lesson for _, lessons in self.room.lessons_of(person) for lesson in lessons]
 
-    def _forget_in(self, seconds: float, name: str) -> None:
-        timer = self._timers[name] = threading.Timer(seconds, self._forget, (name,))
-        timer.daemon = True
-        timer.start()
-
-    def _make_room(self) -> None:
-        idle = [name for name in self._live if name not in self._pages]
-        while len(self._live) > MOST_LIVE and len(idle) > 1:
-            self._forget(idle.pop(0))
-
     def _switch(self, owner: str, name: str) -> None:
         """The person's page goes on with another session, opened on a thread of its own: the worker that asked for it
         ends with the session before."""
@@ -242,37 +227,58 @@ class Hub:
 
     def _switched(self, owner: str, name: str) -> None:
         try:
-            self._leases.take(name)
+            with self._door(owner):
+                before = self.find(owner)
+                if self._closed or name in self._live:
+                    return
+                self._change(before, owner, name)
         except TeachframeError as error:
             _LOG.warning("session %s was not opened: %s", name, error)
             return
-        with self._door(owner), self._lock:
-            before = self._live.get(self._at.get(owner, ""))
-            if self._closed or name in self._live:
-                return
-            self._leases.take(name)
+        if before is not None:
+            self._forget(before.session.name)
+
+    def _change(self, before: Live | None, owner: str, name: str) -> None:
+        look = Look() if before is None else replace(before.context.look)
+        with self._kept(name):
+            self._leases.take(name)  # may take seconds
             self.arms.grant(owner)
             session = self.store.open(name, leases=self._leases)
             if name in self.owners.titles(owner):
                 self.owners.opened(name)
             else:
                 self.owners.give(name, owner)
-            look = Look() if before is None else replace(before.context.look)
-            self._open(session, owner, look).greet("back")
-        if before is not None:
-            self._forget(before.session.name)
+            live = self._open(session, owner, look, expected=True)
+        live.greet("back")
 
-    def _forget(self, name: str) -> None:
-        with self._lock:
-            live = self._live.pop(name, None)
-            self._timers.pop(name, None)
-            self._pages.pop(name, None)
+    @contextmanager
+    def _kept(self, name: str | None) -> Iterator[None]:
+        """What is not open after it is not held either: else no other process could ever open it."""
+        try:
+            yield
+        finally:
+            if name is not None and name not in self._live:
+                self._leases.let(name)
+
+    def _forget(self, name: str, *, idle: bool = False) -> None:
+        """Closes a session; with `idle` only where no page shows it."""
+        live = self._live.get(name)
         if live is None:
             return
-        live.close()
-        with self._lock:
-            if name not in self._live and name not in self._coming:  # nobody came back while it closed
-                self._leases.let(name)
+        owner = live.context.shelf.owner
+        # Who comes back meanwhile waits: he would read what is still being written.
+        with self._door(owner):
+            with self._lock:
+                if self._live.get(name) is not live or (idle and name in self._pages):
+                    return
+                live.closed = True  # its page is told so, and comes again
+                del self._live[name]
+                self._idle.end(name)
+                self._pages.pop(name, None)
+                if self._at.get(owner) == name:
+                    del self._at[owner], self._people[owner]
+            live.close()
+            self._leases.let(name)
 
     def _beat(self) -> None:
         """Says every second what is held here, and lets go of what is wanted elsewhere or was lost."""
@@ -287,6 +293,7 @@ class Hub:
                 continue  # nobody else can take them either
             for name in (names - held) | (names & wanted):
                 live = self._live.get(name)
-                if live is not None:
+                if live is not None and not live.taken:
                     live.taken = True
-                    self._forget(name)
+                    # Not here: the others' beats would wait, and theirs be taken for nobody's.
+                    threading.Thread(target=self._forget, args=(name,), daemon=True).start()

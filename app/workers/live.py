@@ -185,8 +185,9 @@ class Live:
         elif what == "handle" and value in _HANDLES:
             shift, turn = _HANDLES[value]
             context.post(lambda: context.stage.want_handle(shift=shift, turn=turn))
-        elif what == "screen":
+        elif what == "screen" and value in [screen.key for screen in screens()]:
             context.wanted_screen = ""
+            context.post(lambda: context.opened(str(value)))
         else:
             return False
         self._news()
@@ -253,6 +254,7 @@ class Live:
     def _speak(self, language: str) -> None:
         context = self.context
         context.look = replace(context.look, language=language)
+        context.log[:] = context.spoken.lines(context.log, language)
         context.rebuild()
         context.say("info", context.t("message.language"))
 

@@ -1,7 +1,8 @@
-"""What somebody who only looks on gets of a session: its scene without a handle, its figures, nothing to say."""
+"""What somebody who only looks on gets of a session: its scene without a handle, in his own colours, its figures;
+nothing to say."""
 
 from __future__ import annotations
 
-from app.scene.looked_on import without_handle
+from app.scene.looked_on import for_onlooker
 
-__all__ = ["without_handle"]
+__all__ = ["for_onlooker"]

@@ -123,7 +123,8 @@ def read(context: Context, hints: Hinted) -> Read:
         base=t("status.user_base") if frame == "user" else t("status.world"),
         axes=_axes(context, robot, q, pose, frame if own else "joint"),
         pose=_pose(context, pose),
-        of=t("move.position" if tool is not None else "move.flange"),
+        # Why its keys are grey is said where they are.
+        of=("" if own else t("move.not_jogged")) + t("move.position" if tool is not None else "move.flange"),
         touch=touch,
         touching=touching,
         # The wizard's, which is for the own arm.

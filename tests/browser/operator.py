@@ -33,7 +33,7 @@ class Operator:
 
     def __init__(self, page, server, robot=None):
         self.page, self.server = page, server
-        self.faults, self._holding = [], False
+        self.faults, self._holding, self._pressing = [], False, False
         page.on("pageerror", self._fault)
         page.goto(server.address)
         secret = next(c["value"] for c in page.context.cookies() if c["name"] == COOKIE)
@@ -87,11 +87,30 @@ class Operator:
         while not true():
             assert time.monotonic() < end, f"waited {PATIENCE_S:g} s for {what}; {self.last_words()}"
             if self._holding and not self.context.drive.live:
-                self.page.keyboard.up("Space")
-                self.page.wait_for_timeout(60)
-                self.page.keyboard.down("Space")
-                self.page.wait_for_timeout(60)
+                self._anew()
             self.page.wait_for_timeout(20)
+
+    def _anew(self):
+        """After a trip everything has to be let go; and a press that has moved the arm once moves it no more."""
+        if self._pressing:
+            self.page.mouse.up()
+        self.page.keyboard.up("Space")
+        self.page.wait_for_timeout(60)
+        self.page.keyboard.down("Space")
+        self.page.wait_for_timeout(60)
+        if self._pressing:
+            self.page.mouse.down()
+
+    @contextlib.contextmanager
+    def pressing(self):
+        """The mouse is held where it is."""
+        self.page.mouse.down()
+        self._pressing = True
+        try:
+            yield
+        finally:
+            self._pressing = False
+            self.page.mouse.up()
 
     def last_words(self):
         """Where the arm stands, and what the pendant said last."""
@@ -124,7 +143,8 @@ class Operator:
         else:
             self.moves(f"Move 150 mm along tool +{step.role.upper()}")
         self.click(f"Record {step.title}")
-        self.until(lambda: step.key in self.state.captures, f"{step.title} recorded")
+        # Until the worker is through, the ghost of the touch before still counts as the proposal.
+        self.until(lambda: step.key in self.state.captures and self._idle(), f"{step.title} recorded")
 
     def moves(self, name):
         """Presses a button and holds the switch until the arm has gone there."""

@@ -133,5 +133,6 @@ def test_a_page_whose_person_was_shut_out_shows_the_way_in(person, school, monke
     page.get_by_role("button", name="Log in", exact=True).click()
     page.get_by_test_id("status-state").filter(has_text="ready").wait_for()
     school.people.change(li.id, disabled=True)
-    page.wait_for_url("**/login")
+    page.wait_for_url("**/login?ended=1")
+    page.get_by_test_id("ended").wait_for()  # and is told why he stands there
     assert not page.faults

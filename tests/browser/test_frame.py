@@ -63,15 +63,14 @@ def test_a_button_moves_while_both_are_held_and_stops_with_either(sit_down, monk
     person.reads("message-warning", "enabling switch")
     page.mouse.up()
     with person.holding():
-        page.mouse.down()
-        person.until(lambda: person.q[0] > start[0] + 0.02, "axis 1 to move")
-        person.picture("jogging")
-        page.mouse.up()
+        with person.pressing():
+            person.until(lambda: person.q[0] > start[0] + 0.02, "axis 1 to move")
+            person.picture("jogging")
         person.until(lambda: person.context.drive.how == "standing", "the arm to stand")
-        page.mouse.down()
-        person.until(lambda: person.context.worker.running("jog"), "axis 1 to move again")
-    person.until(lambda: not person.context.worker.running("jog"), "the arm to stand without the switch")
-    page.mouse.up()
+    with person.pressing():  # the button first, the switch after it
+        with person.holding():
+            person.until(lambda: person.context.worker.running("jog"), "axis 1 to move again")
+        person.until(lambda: not person.context.worker.running("jog"), "the arm to stand without the switch")
     assert not np.delete(person.q - start, 0).any() and not person.faults
 
 
@@ -98,6 +97,26 @@ def test_keys_choose_hold_release_and_stop_even_while_a_field_has_the_focus(sit_
     page.get_by_test_id("estop").click()
     person.until(lambda: not person.context.drive.enabling.stopped, "the release")
     assert np.array_equal(person.q, stands) and not person.faults
+
+
+def test_a_button_that_is_replaced_under_the_finger_is_let_go(sit_down, monkeypatch):
+    """Another frame makes other buttons: the one that was held stayed held for ever, and the arm went on."""
+    monkeypatch.setattr(enabling, "SILENCE", 3.0)
+    person = sit_down()
+    page, start = person.page, person.q
+    page.mouse.move(*middle(jog_button(person, "J1 plus")))
+    with person.holding():
+        page.mouse.down()
+        person.until(lambda: person.q[0] > start[0] + 0.02, "axis 1 to move")
+        page.evaluate("document.querySelector('#frames [data-key=base]').click()")
+        jog_button(person, "X plus").wait_for()
+        page.mouse.move(*middle(page.locator("#bar")))
+        page.mouse.up()
+        page.wait_for_timeout(400)
+        stood = person.q
+        page.wait_for_timeout(400)
+        assert np.array_equal(person.q, stood) and page.locator(".jk.down").count() == 0
+        assert person.context.drive.live
 
 
 def test_two_fingers_hold_the_switch_and_a_button(sit_down, monkeypatch):
@@ -209,6 +228,24 @@ def test_with_an_account_the_facts_still_stand_beside_each_other(sit_down, size)
     assert person.page.evaluate(_ON_EACH_OTHER) == []
     assert person.page.evaluate(_STOP) == "estop"
     assert person.page.evaluate("document.documentElement.scrollWidth <= innerWidth")
+    if size[0] == 1280:  # the two columns beside the scene are as high as the window
+        home, enable = (person.page.locator(what).bounding_box() for what in ("#home", "#enable"))
+        assert home["y"] + home["height"] <= enable["y"], "Home stands above ENABLING, not under it"
+
+
+@pytest.mark.parametrize("language", ["en", "zh"])
+def test_on_a_phone_the_word_that_releases_the_stop_is_not_cut_off(sit_down, language):
+    person = sit_down("jby50", screen={"width": 390, "height": 844}, touch=True)
+    person.live.choose("language", language)
+    person.page.locator(f"html[lang^={language}]").wait_for(state="attached")
+    person.page.get_by_test_id("estop").click()
+    person.page.locator("#estop.latched").wait_for()
+    within, words = person.page.evaluate(
+        """() => { const key = document.getElementById("estop"), text = document.createRange();
+            text.selectNodeContents(key);
+            return [key, text].map((one) => one.getBoundingClientRect()).map((box) => [box.left, box.right]); }"""
+    )
+    assert within[0] + 4 <= words[0] and words[1] <= within[1] - 4 and within[1] <= 390
 
 
 def test_dark_and_light_are_remembered_by_the_browser(sit_down):
@@ -240,3 +277,15 @@ def test_the_scene_goes_on_drawing_whatever_is_given_up(sit_down):
     person.scene_is_there()
     timed, came = person.page.evaluate(_GIVEN_UP)
     assert timed and came == list(range(0, 20, 2))
+
+
+def test_on_a_phone_what_waits_for_the_switch_leaves_the_message_no_column_of_letters(sit_down):
+    person = sit_down(screen={"width": 390, "height": 844})
+    person.page.locator("#home").click()
+    person.live.joint(0, 20.0)
+    person.until(lambda: person.context.drive.how == "waiting", "the errand")
+    person.page.locator("#errand-said").filter(has_text="axis 1").wait_for()
+    for words in (person.page.locator("#message"), person.page.locator("#errand")):
+        box = words.bounding_box() if words.is_visible() else None
+        assert box is None or box["width"] > 300, box
+    assert person.page.locator("#line").bounding_box()["height"] < 100

@@ -1,4 +1,4 @@
-"""How the page looks and is reached: contrast, sizes of targets, focus, a gamepad, the first paint, its weight."""
+"""How the page looks and is reached: contrast, sizes of targets, focus, the first paint, its weight."""
 
 import pytest
 
@@ -153,52 +153,6 @@ def test_on_a_phone_the_switch_is_there_beside_the_work_and_no_axis_is_under_it(
     person.page.locator("#switch button[data-part=work]").click()
     assert person.page.locator("#enable").is_visible()
     assert person.page.evaluate(place, "#work")[1] <= person.page.evaluate(place, "#enable")[0] + 1
-
-
-PAD = """() => {
-    window.pad = { connected: true, buttons: Array.from({ length: 16 }, () => ({ pressed: false })) };
-    navigator.getGamepads = () => [window.pad];
-    window.dispatchEvent(new Event("gamepadconnected"));
-}"""
-
-
-def pressed(person, number, down=True):
-    person.page.evaluate("([number, down]) => { pad.buttons[number].pressed = down; }", [number, down])
-
-
-def test_a_gamepad_enables_chooses_jogs_and_stops(sit_down, brisk):
-    person = sit_down("jby50")
-    drive = person.context.drive
-    person.page.evaluate(PAD)
-    start = person.q
-    pressed(person, 15)  # the cross to the right, without the shoulder button
-    person.page.wait_for_timeout(300)
-    assert (person.q == start).all()
-    pressed(person, 15, False)
-    pressed(person, 13)  # down: the next axis
-    person.page.locator("#axes .ax.chosen").nth(0).filter(has_text="J2").wait_for()
-    pressed(person, 13, False)
-    pressed(person, 5)
-    person.until(lambda: drive.live, "the shoulder button")
-    pressed(person, 15)
-    person.until(lambda: abs(person.q[1] - start[1]) > 0.01, "the second joint")
-    assert person.q[1] > start[1] and person.q[0] == start[0]
-    pressed(person, 5, False)
-    person.until(lambda: not drive.live, "letting go")
-    person.at_rest()
-    stood = person.q
-    person.page.wait_for_timeout(200)
-    assert (person.q == stood).all()
-    pressed(person, 15, False)
-    pressed(person, 5)
-    person.until(lambda: drive.live, "the shoulder button")
-    person.page.evaluate("() => { pad.connected = false; }")
-    person.until(lambda: not drive.live, "a pad that is gone lets go")
-    person.page.evaluate(PAD)
-    pressed(person, 1)
-    person.until(lambda: drive.how == "stopped", "the round button")
-    pressed(person, 1, False)
-    assert not person.faults
 
 
 def test_the_first_paint_comes_soon_and_the_page_is_light(chromium, served):

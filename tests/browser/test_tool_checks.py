@@ -5,12 +5,16 @@ import re
 import numpy as np
 import pytest
 
-from app.calibration.report import report
+from app.calibration.report import report, two_robots_report
 from app.calibration.solving import solve_file
+from app.diagnosis.report import as_page
 from app.resources import STATIC
 from app.session import Session
 from app.session.actions import Calculate, ChooseMode, Enter
+from app.simulation.tracker_cell import make_cell
+from app.simulation.tracker_procedure import carry_out
 from tests.calibration.drawing import captures, touches
+from tests.diagnosis.report.cases import motion_case, static_case
 from tests.screens.tool.test_checks_shown import CASES
 from tests.session.wizard import wizard_actions
 
@@ -83,12 +87,41 @@ def test_the_sheet_prints_on_exactly_one_page(language, chromium, tmp_path):
         "typed": typed(),
         "many": many_touches_with_remarks(tmp_path),
     }
+    pages = {
+        name: report(solved, name="torch", made="2026-01-02 03:04", language=language)
+        for name, solved in sheets.items()
+    }
+    outcome = carry_out(make_cell("irb120", "ur10e", 5), seed=5)
+    pages["two robots"] = two_robots_report(
+        ("ABB IRB 120", "Universal Robots UR10e"), outcome.bases, outcome.relation, language=language
+    )
     page = chromium.new_page()
-    for name, solved in sheets.items():
-        page.set_content(report(solved, name="torch", made="2026-01-02 03:04", language=language))
+    for name, content in pages.items():
+        page.set_content(content)
         paper = page.pdf(prefer_css_page_size=True, print_background=True)
         assert len(re.findall(rb"/Type\s*/Page\b(?!s)", paper)) == 1, name
         box = re.search(rb"/MediaBox\s*\[0 0 ([\d.]+) ([\d.]+)\]", paper)
         assert box is not None
         np.testing.assert_allclose([float(v) for v in box.groups()], [595, 842], atol=1.0)  # A4 in points
     page.close()
+
+
+_WIDER = """() => [...document.querySelectorAll("body *")].filter((one) => !one.closest("table, figure, svg")
+    && one.getBoundingClientRect().right > innerWidth + 1).map((one) => one.tagName + one.className)"""
+
+
+@pytest.mark.parametrize("language", ["en", "zh"])
+def test_every_sheet_and_report_fits_a_phone(language, chromium):
+    outcome = carry_out(make_cell("irb120", "ur10e", 5), seed=5)
+    pages = {
+        "tool": report(solve_file(TABLE_1, method="pairwise"), language=language),
+        "two robots": two_robots_report(("A", "B"), outcome.bases, outcome.relation, language=language),
+        "static": as_page([static_case()], [None], command="teachframe diagnose x.csv", language=language),
+        "motion": as_page([motion_case()], [None], command="teachframe diagnose x.csv", language=language),
+    }
+    phone = chromium.new_page(viewport={"width": 390, "height": 844})
+    for name, content in pages.items():
+        phone.set_content(content)
+        assert phone.evaluate("document.documentElement.scrollWidth") == 390, name
+        assert phone.evaluate(_WIDER) == [], name
+    phone.close()

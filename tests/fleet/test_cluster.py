@@ -57,6 +57,17 @@ def test_a_worker_and_the_scheduler_are_killed_and_no_row_is_lost_or_doubled(
 
 def test_a_scheduler_that_does_not_answer_is_one_line(shop, tmp_path, monkeypatch):
     monkeypatch.setattr("app.fleet.cluster._ANSWER", 1.0)
-    for address in ("tcp://127.0.0.1:1", "nonsense://x", "tcp://nowhere.invalid:8786"):
+    for address in ("tcp://127.0.0.1:1", "tcp://nowhere.invalid:8786"):
         said = teachframe("fleet", shop, "--out", tmp_path / "r.parquet", "--scheduler", address)
         assert_one_line(said, "--scheduler", "does not answer")
+
+
+@pytest.mark.parametrize(
+    "address",
+    ["", "nonsense", "nonsense://x", "tcp://127.0.0.1", "http://127.0.0.1:80", "tcp://[::1]:99999", "a b:1"],
+)
+def test_what_is_no_address_is_one_line_before_a_client_is_made(shop, tmp_path, monkeypatch, address):
+    """Dask made half a client of it, whose end came twenty seconds later, as a trace."""
+    monkeypatch.setattr("distributed.Client", None)
+    said = teachframe("fleet", shop, "--out", tmp_path / "r.parquet", "--scheduler", address)
+    assert_one_line(said, "--scheduler", "is no address", "tcp://HOST:8786")

@@ -3,6 +3,7 @@
 import numpy as np
 
 from app.fleet.summary import as_page, as_text, summarised
+from app.fleet.summary.news import News
 from app.fleet.wording import WORDS
 from tests.chinese import CHINESE, english_left
 from tests.fleet.making import row
@@ -49,6 +50,8 @@ def test_what_the_last_run_brought_is_said_beside_all_before():
     assert [(arm, what.place["joint"]) for arm, what in new.come] == [("A", 4)]
     assert [(arm, what.place["joint"]) for arm, what in new.gone] == [("B", 2)]
     assert summarised(rows[:2]).news is None
+    nothing = summarised(rows[:2], run=2)
+    assert nothing.news == News(0, (), (), ()) and "first run" not in as_text(nothing)
 
 
 def test_no_text_of_a_file_becomes_markup():

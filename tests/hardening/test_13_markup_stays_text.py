@@ -10,7 +10,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from app.calibration.base.page import base_page
+from app.calibration.report import two_robots_report
 from app.cli import run
 from app.errors import StorageError
 from app.proof import page as scorecard
@@ -90,9 +90,9 @@ def test_the_scorecard_of_a_proof(monkeypatch):
 
 
 def test_the_page_of_two_robots():
-    page = base_page([BAD, BAD], [], None, made=BAD, language="zh")
+    page = two_robots_report([BAD, BAD], [], None, made=BAD, language="zh")
     is_clean(page)
-    assert page.count(AS_TEXT) == 3
+    assert page.count(AS_TEXT) == 6  # robots in the title and the head, date above and below
 
 
 @pytest.mark.parametrize("language", ["en", "zh"])

@@ -9,6 +9,7 @@ import pytest
 from app import catalog
 from app.cli import run
 from app.kinematics import load_robot
+from app.proof.drawing_motion import draw_motion
 from app.proof.generator.motion.making import MotionPlan, make_motion
 from app.proof.generator.urdf import read_arm
 from app.recordings import read_table
@@ -109,3 +110,8 @@ def test_a_spring_that_cannot_be_is_refused_in_a_line(sizes, tmp_path, capsys):
     assert simulate(tmp_path, "--effect", f"elastic_joint:joint=2,{sizes}") == 2
     (line,) = capsys.readouterr().err.strip().splitlines()
     assert "elastic_joint" in line and "stiffness" in line
+
+
+def test_a_rival_that_this_arm_cannot_have_stops_no_drawing(tmp_path):
+    """A spring behind joint 6 of this case's arm would not hold what hangs on it: it is no rival there."""
+    assert draw_motion(20261205, 16, "elastic", tmp_path)["truth"]

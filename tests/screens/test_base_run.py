@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from app.errors import ActionRefusedError
+from app.scene.instead import Instead
 from app.screens._base.run import Run
 from app.simulation.tracker_cell import make_cell
 from app.simulation.tracker_meeting import meet
@@ -26,6 +27,13 @@ def run_of(sit_at):
     return start
 
 
+def _turned(run, angle):
+    """The axis of the step at hand stands at `angle` [rad], without a way."""
+    step = run.wizard.step
+    run.pose(step.robot - 1, run.now.posture(step.robot - 1, step.axis, angle))
+    return run.aim(step.robot - 1)
+
+
 def _by_hand(run):
     while (step := run.wizard.step) is not None:
         if step.kind == "nests":
@@ -36,7 +44,7 @@ def _by_hand(run):
             assert run.measure().seen
         else:
             for angle in run.now.visible_angles(step.robot - 1, step.axis, STEP, np.radians(100)):
-                assert run.turn_to(float(angle)).seen
+                assert _turned(run, float(angle)).seen
                 run.measure()
         run.leave()
 
@@ -77,9 +85,9 @@ def test_a_reflector_that_is_not_seen_changes_nothing(run_of):
     run = run_of(nests=False, pushed=False)
     run.measure()
     run.leave()
-    away = [a for a in np.radians(np.arange(-160, 161, 10)) if not run.turn_to(float(a)).seen]
+    away = [a for a in np.radians(np.arange(-160, 161, 10)) if not _turned(run, float(a)).seen]
     assert away, "somewhere the beam must break"
-    run.turn_to(float(away[0]))
+    _turned(run, float(away[0]))
     before = run.wizard
     assert not run.measure().seen and run.wizard is before
 
@@ -105,11 +113,118 @@ def test_what_is_said_at_the_end_is_what_was_found(desk):
     )
     for relation, level, words in ends:
         run = Some(wizard=Some(done=True), relation=None, solve=lambda relation=relation: relation)
-        desk.does(lambda run=run: view._finish(run))
+        desk.does(lambda run=run: view.finish(run))
         assert desk.said[0] == level and words in desk.said[1]
 
 
 def test_the_wizards_points_are_not_shown_beside_another_arm(desk):
     assert desk.live.read().points
-    desk.does(lambda: desk.context.show_instead(lambda: (desk.context.model, desk.q)))
+    place = Instead(np.eye(3), np.zeros(3), np.ones(3))
+    desk.does(lambda: desk.context.show_instead(lambda: (desk.context.model, desk.q), lambda: place))
     assert desk.live.read().points == ""
+
+
+@pytest.fixture
+def in_the_cell(sit_at, brisk):
+    desk = sit_at("two", robot="irb120")
+    desk.press("Open the cell")
+    return desk, desk.view("run")
+
+
+def test_a_step_in_which_nothing_moves_gives_its_keys_back(in_the_cell):
+    """'Run this step' on the nests ended and left 'Stop the procedure' alone on the page."""
+    desk, view = in_the_cell
+    desk.press("Run this step")
+    desk.rests()
+    assert view.run.wizard.index == 1
+    assert {"Run this step", "By hand"} <= desk.shown() and "Stop the procedure" not in desk.shown()
+
+
+def test_by_hand_too_nothing_moves_unless_the_switch_is_held(in_the_cell):
+    desk, view = in_the_cell
+    for _ in range(2):  # nests, zero position
+        desk.press("Run this step")
+        with desk.holding():
+            desk.rests()
+    stood = view.run.postures[0].copy()
+    desk.press("Axis angle", 40.0)
+    for _ in range(5):
+        desk.does(lambda: None)
+    assert np.array_equal(view.run.postures[0], stood) and desk.drive.how == "waiting"
+    assert desk.drive.errand == "axis 1 of robot 1"
+    with desk.holding():
+        desk.rests()
+    assert view.run.postures[0][0] == pytest.approx(np.radians(40.0))
+    desk.press("Axis angle", -40.0)
+    desk.drive.stop()
+    desk.live.beat(True, None, 0, 0)
+    for degrees in (-40.0, -20.0):
+        desk.press("Axis angle", degrees)
+    assert view.run.postures[0][0] == pytest.approx(np.radians(40.0)) and desk.said[0] == "warning"
+
+
+def test_the_zero_position_by_hand_is_measured_at_zero(in_the_cell):
+    """After an arc by hand the arm stood where the arc ended, and that was taken for zero."""
+    desk, view = in_the_cell
+    for _ in range(2):
+        desk.press("Run this step")
+        with desk.holding():
+            desk.rests()
+    for degrees in (-30.0, -15.0, 0.0, 15.0, 30.0):
+        desk.press("Axis angle", degrees)
+        with desk.holding():
+            desk.rests()
+        desk.press("Point", "Measure")
+    desk.press("Point", "Next step")
+    assert view.run.wizard.step.kind == "zero" and "Axis angle" not in desk.shown()
+    desk.press("Point", "Measure")
+    assert desk.drive.how == "waiting" and not view.run.wizard.of(view.run.wizard.step.key)
+    with desk.holding():
+        desk.rests()
+    assert np.array_equal(view.run.postures[0], view.run.now.arms[0].rest)
+    assert len(view.run.wizard.of(view.run.wizard.step.key)) == 1
+
+
+#: Width over height of a desk's scene and of a phone's.
+SHAPES = (0.93, 2.4)
+
+
+def outside(view, points, shape, field=0.75):
+    """Points (n, 3) that an eye with this field of view [rad] does not see in a window of this shape."""
+    eye, centre = view
+    ahead = (centre - eye) / np.linalg.norm(centre - eye)
+    right = np.cross(ahead, [0.0, 0.0, 1.0])
+    right /= np.linalg.norm(right)
+    rel = points - eye
+    deep = np.tan(field / 2.0) * (rel @ ahead)
+    off = np.maximum(np.abs(rel @ right) / (shape * deep), np.abs(rel @ np.cross(right, ahead)) / deep)
+    return points[off > 1.0]
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_every_named_view_but_the_tips_keeps_both_robots_and_the_tracker_in_sight(run_of, shape):
+    """They looked at the tool's cell, which is not there: at the inside of a robot, or at nothing."""
+    run = run_of(nests=True, pushed=False)
+    arms = [arm.T_world_base.apply(arm.robot.chain.frames(q[None]).joint_positions[0])
+            for arm, q in zip(run.cell.arms, run.postures, strict=True)]  # fmt: skip
+    seen = np.vstack([*arms, run.cell.tracker.T_world_tracker.position[None], run.cell.nests])
+    for name in ("whole", "side", "front"):
+        assert not len(outside(run.instead().view(name, shape), seen, shape)), name
+    eye, centre = run.instead().view("close", shape)
+    assert np.allclose(centre, run.drawn_tips()[0]) and np.linalg.norm(eye - centre) < 2.0
+
+
+def test_where_both_tools_have_met_both_arms_are_in_sight(in_the_cell):
+    desk, view = in_the_cell
+    desk.does(lambda: view.begin(view._measuring(view.run, True), ""))
+    with desk.holding():
+        desk.rests()
+    desk.press("Send both tools to one point")
+    with desk.holding():
+        desk.rests()
+    run, looks = view.run, desk.context.stage._server.initial_camera
+    assert run.meeting is not None
+    arms = [arm.T_world_base.apply(arm.robot.chain.frames(q[None]).joint_positions[0])
+            for arm, q in zip(run.cell.arms, run.postures, strict=True)]  # fmt: skip
+    eye = np.array(looks.position), np.array(looks.look_at)
+    assert not len(outside(eye, np.vstack([*arms, run.drawn_tips()]), desk.context.stage.eyes.aspect))

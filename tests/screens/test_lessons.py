@@ -150,3 +150,31 @@ def test_however_a_demonstration_ends_the_own_points_are_there(sit_at, brisk, ho
         return
     desk.idle()
     assert dict(desk.state.captures) == mine
+
+
+def test_when_all_that_is_asked_for_is_there_the_key_that_finishes_stands_out(sit_at):
+    """In a lesson of touches alone the wizard asked to calculate, and the task to finish."""
+    desk = sit_at(robot="ur10e")
+    begin(desk, "touch_the_spike", "guided")
+    key, view = training(desk)._finish_button, desk.view("deciding")
+    assert key.rank == "plain"
+    start = desk.q.copy()
+    for number, turn in enumerate((0.0, 0.3, -0.3), 1):
+        q = start.copy()
+        q[4] += turn
+        desk.place(desk.context.world.touch(q, np.random.default_rng(number)).q)
+        desk.does(view._record_next)
+    assert key.rank == "main" and view._calculate.rank == "plain" and view._calculate.visible
+    assert "Finish the exercise" in plain(view._next.content)
+
+
+def test_what_is_not_done_takes_a_second_press_to_finish(sit_at):
+    """A key pressed too early ended the attempt with no points, and no way back."""
+    desk = sit_at(robot="ur10e")
+    begin(desk, "touch_the_spike", "guided")
+    view = training(desk)
+    desk.does(view._finish)
+    assert desk.state.running is not None and "Press again" in desk.said[-1]
+    assert view._finish_button.label == desk.context.t("training.finish_sure")
+    desk.does(view._finish)
+    assert desk.state.running is None

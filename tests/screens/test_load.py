@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from app.screens.load import CENTRE, MASS
-from app.training.weighing import hidden_load, off
+from app.training.weighing import hidden_load, off, proposed
 from tests.desk import plain, until
 
 #: Half a 95% interval is 1.96 standard deviations; beyond 4.5 of them the interval is not true.
@@ -37,6 +37,25 @@ def test_four_poses_and_a_run_give_the_load(sit_at, brisk):
     desk.press("Show the true load")
     assert f"{view.true.mass:.3f} kg" in plain(view._truth.content)
     assert 'data-colour="green"' in view._truth.content
+
+
+def test_the_ghost_stands_at_the_pose_that_is_proposed_while_the_screen_is_open(sit_at):
+    """It stood at the next touch of the tool wizard, whatever was open."""
+    desk = sit_at(robot="ur10e")
+    ghost = desk.context.stage.next_arm
+    desk.live.choose("screen", "load")
+    desk.idle()
+    for number in range(4):
+        assert np.allclose(ghost._q, proposed(desk.context.model)[number])
+        assert lesson(desk)._go.rank == ("main" if number else "plain")  # a pose like the last is none
+        desk.place(proposed(desk.context.model)[number])
+        desk.does(desk.context.numbers)
+        assert lesson(desk)._record.rank == "main"
+        desk.does(lesson(desk)._take)
+    assert ghost._q is None and not ghost.visible
+    desk.live.choose("language", "zh")  # everything is made anew, the screen stays open
+    desk.idle()
+    assert desk.context.stage.next_arm._screen == "load"
 
 
 def test_a_pose_like_another_is_refused_with_how_far_it_is_turned(sit_at):

@@ -10,6 +10,7 @@ from app.geometry.conventions import convention
 from app.kinematics import load_robot, robot_names
 from app.screens._tool.words import Words
 from app.screens.look import Look
+from app.screens.spoken import Spoken
 from app.texts import text
 from app.workers.axes import pairs, turns
 from tests.chinese import CHINESE
@@ -20,6 +21,7 @@ def _context(language="zh", vocabulary="", robot="jby50"):
         language=language,
         vocabulary=vocabulary,
         model=load_robot(robot),
+        spoken=Spoken(),
         t=lambda key, **fields: text(key, language, **fields),
     )
 

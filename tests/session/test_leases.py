@@ -9,10 +9,11 @@ import time
 import pytest
 from sqlalchemy import text
 
-from app.errors import StorageError
+from app.errors import ConflictError, StorageError
 from app.session import Store, leases
 from app.session.actions import Move
 from app.session.leases import Leases
+from tests.desk import until
 from tests.session.postgresql import schema
 
 AT = (0.1, -1.0, 1.0, 0.2, 0.3, 0.4)
@@ -168,3 +169,58 @@ def test_a_deleted_session_is_held_by_nobody(stores):
     with stores[0].database.begin() as connection:
         assert connection.execute(text("SELECT count(*) FROM leases")).scalar() == 0
         assert connection.execute(text("SELECT count(*) FROM actions")).scalar() == 0
+
+
+def test_those_who_come_from_a_killed_process_share_a_commit(tmp_path):
+    """Each asked SQLite for its lock himself: beside three other processes some did not get it in five seconds."""
+    store = Store(tmp_path)
+    gone, mine = Leases(store.database), Leases(store.database)
+    gone.me = f"{leases._host()} {os.getpid()} 1 x"  # another process has its number now
+    names = [store.create(robot="ur5", leases=gone).name for _ in range(6)]
+    together = store.database._together
+    with together._turn:
+        threads = [threading.Thread(target=mine.take, args=(name,)) for name in names]
+        for thread in threads:
+            thread.start()
+        until(lambda: len(together._waiting) == len(names), "all to wait for one commit", 20.0)
+    for thread in threads:
+        thread.join()
+    assert mine.beat()[0] == set(names)
+
+
+def test_of_two_that_wait_for_each_others_rows_one_is_told_so_and_both_are_kept(request, tmp_path):
+    """Sessions that are wanted in opposite orders by two processes that share commits (PostgreSQL locks rows)."""
+    with schema(request.getfixturevalue("postgresql")) as url:
+        stores = [Store(tmp_path, url), Store(tmp_path, url)]
+        gone = holder(stores[0])
+        names = [stores[0].create(robot="ur5", leases=gone).name for _ in range(2)]
+        both, conflicts = threading.Barrier(2), []
+
+        def wanted(store, order):
+            def job(connection):
+                for number, name in enumerate(order):
+                    if number and not conflicts:
+                        both.wait(20.0)
+                    change = "UPDATE leases SET beat = beat + 1 WHERE session = :name"
+                    connection.execute(text(change), {"name": name})
+
+            try:
+                with store.database.begin() as connection:
+                    job(connection)
+            except ConflictError:
+                conflicts.append(store)
+                store.database.write(job)
+
+        threads = [
+            threading.Thread(target=wanted, args=(store, order))
+            for store, order in zip(stores, (names, names[::-1]), strict=True)
+        ]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        assert len(conflicts) == 1
+        with stores[0].database.begin() as connection:
+            assert set(connection.execute(text("SELECT beat FROM leases")).scalars()) == {2}
+        for store in stores:
+            store.database.close()

@@ -45,7 +45,8 @@ def test_viser_has_no_port_and_no_thread_of_its_own():
         listening = probe.fileno()
     server = SceneServer()
     try:
-        assert set(threading.enumerate()) == before and server.get_port() == 0
+        started = set(threading.enumerate()) - before  # threads of earlier tests may end meanwhile
+        assert not started and server.get_port() == 0
         with closing(socket.socket()) as probe:  # no file was opened in between
             assert probe.fileno() == listening
     finally:

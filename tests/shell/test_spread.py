@@ -1,11 +1,15 @@
 """Which worker a browser belongs to: the one it came to first; where that ended, all share those it had."""
 
 import asyncio
+import socket
 from collections import Counter
 
 import pytest
 
 from app.shell import spread
+from app.shell.supervisor import _TOGETHER, Supervisor
+from app.shell.way import Way
+from app.shell.worker import Plan
 from tests.shell.test_front import run, worker
 
 
@@ -71,3 +75,32 @@ def test_browsers_that_are_gone_for_long_are_forgotten(tmp_path, monkeypatch):
         assert len(street.front.spread.known) <= 10
 
     run(tmp_path, story)
+
+
+def test_a_class_that_comes_in_at_one_moment_is_spread(tmp_path):
+    """Nobody has a cookie yet, so nobody is known."""
+
+    async def story(street):
+        went = [worker(answer) for answer in await asyncio.gather(*(street.ask() for _ in range(12)))]
+        assert sorted(Counter(went).values()) == [6, 6]
+
+    run(tmp_path, story)
+
+
+def test_people_wait_for_all_workers_to_come_up_but_not_for_long(monkeypatch, tmp_path):
+    """The first to come up got everybody who waited, and kept them."""
+    now = [100.0]
+    monkeypatch.setattr("app.shell.supervisor.time.monotonic", lambda: now[0])
+    listening = socket.socket()
+    for late in (False, True):
+        people = Supervisor(Plan(tmp_path, None, "127.0.0.1", Way(), None, False), 3, listening)
+        people._workers[1].ready = True
+        assert not people._front.spread.ready
+        if late:
+            now[0] += _TOGETHER + 1.0
+        else:
+            people._workers[0].ready = people._workers[2].ready = True
+        assert people._front.spread.ready and people._ready(1) and people._ready(0) is not late
+        people._workers[0].ready = False
+        assert people._ready(1) and not people._ready(0)
+    listening.close()

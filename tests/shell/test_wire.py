@@ -199,8 +199,7 @@ def test_the_search_finds_what_is_sent_and_the_truth_after_the_end(served):
     numbers = true_tool(truth_of(chosen.key, SEED), 9).position * 1e3
     told = ", ".join(f"{v:.2f}" for v in numbers).encode()
     assert told not in b"".join(tap.texts)
-    view = desk.view("showing")
-    desk.does(view._finish)
+    desk.finish()
     until(lambda: told in b"".join(tap.texts), "the score card")
 
 
@@ -236,11 +235,11 @@ def test_the_second_robots_place_is_received_nowhere_before_the_end(served):
                 run.measure()
             else:
                 for angle in run.now.visible_angles(arm, step.axis, from_deg(20.0), from_deg(60.0)):
-                    run.turn_to(float(angle))
+                    run.pose(arm, run.now.posture(arm, step.axis, float(angle)))
                     run.measure()
             run.leave()
-            view._show()
-        view._finish(run)
+            view.show()
+        view.finish(run)
 
     desk.does(measure)
     desk.moves(view._meet)
@@ -259,7 +258,6 @@ def test_the_second_robots_place_is_received_nowhere_before_the_end(served):
         if abs(v) > 1e-9 and (how := tap.holds(float(v) * scale))
     }
     assert not found, found
-    training = desk.view("showing")
-    desk.does(training._finish)
+    desk.finish()
     told = ", ".join(f"{v:.2f}" for v in truth.cell.T_base1_base2.position * 1e3).encode()
     until(lambda: told in b"".join(tap.texts), "the score card")

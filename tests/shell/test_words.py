@@ -59,6 +59,19 @@ def test_the_arm_stands_when_the_page_goes(client, hub):
     assert not live.context.drive.live
 
 
+def test_the_first_press_after_a_reload_moves_though_it_has_the_number_of_one_before(client, hub):
+    """Pages number their presses from the beginning: the same button was dead for one press after a reload."""
+    with Page(client, hub) as page:
+        page.hold(0.2, en=True, axis=0, sign=1, press=1)
+        live = page.live
+    until(lambda: not live.context.worker.running("jog"), "the stand-still")
+    stood = live.context.q.copy()
+    with Page(client, hub) as again:
+        assert again.live is live
+        again.hold(0.3, en=True, axis=0, sign=1, press=1)
+        assert again.q[0] > stood[0] + 0.01
+
+
 def test_the_stop_latches_until_it_is_released_and_pressed_anew(page):
     page.hold(0.2, en=True, axis=0, sign=1, press=1)
     page.say(t="stop")

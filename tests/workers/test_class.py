@@ -5,7 +5,10 @@ import time
 import pytest
 
 from app.classroom.working import STUCK
+from app.screens._training import scoring
 from app.session import Store
+from app.training.exercise import exercise
+from app.training.score import ScoreCard
 from app.workers.hub import Hub
 from tests.desk import Desk, until
 
@@ -64,8 +67,26 @@ def test_a_score_stands_under_the_person_whatever_a_journal_says(hub, at):
     hub.room.assignments.give(at.id, "first_tool")
     desk = sit(hub, ada)
     desk.does(desk.view("choose")._start)
-    desk.does(lambda: desk.view("choose")._finish())
+    desk.finish()
     assert [card.exercise for card in hub.records.history(ada.id)] == ["first_tool"]
+
+
+def test_the_score_card_leads_on_to_what_the_class_has_given_next(hub, at):
+    """It led to the same exercise with less help, while the page of lessons named another one."""
+    ada = join(hub, at)
+    for key in ("first_tool", "bent_tip"):
+        hub.room.assignments.give(at.id, key)
+    desk = sit(hub, ada)
+    figures = {"tool_mm": 0.1}
+    card = ScoreCard("first_tool", 1, time.time(), 60.0, 90.0, (), figures, {}, "", 0, "", 0, level="guided")
+    hub.records.add(ada.id, desk.context.session.name, card)
+    assert card.passed
+    desk.does(lambda: scoring.show(desk.context, ada.id, card))
+    title = exercise("bent_tip").said("en").title
+    (following,) = [label for label in desk.shown() if label.startswith("Next: ")]
+    assert following == f"Next: {title} (guided)"
+    desk.press(following)
+    assert desk.state.running.begun.exercise == "bent_tip"
 
 
 def test_an_attempt_taken_in_from_elsewhere_earns_nothing(hub, at):
@@ -78,10 +99,10 @@ def test_an_attempt_taken_in_from_elsewhere_earns_nothing(hub, at):
     hub.owners.give(copy, bo.owner)
     other = sit(hub, bo)
     assert other.context.session.name == copy and other.state.running is not None
-    other.does(lambda: other.view("choose")._finish())
+    other.finish()
     assert not hub.records.history(bo.id) and not hub.records.history(ada.id)
     other.does(other.view("choose")._start)  # his own, in the same session, counts
-    other.does(lambda: other.view("choose")._finish())
+    other.finish()
     assert len(hub.records.history(bo.id)) == 1
 
 
@@ -93,7 +114,7 @@ def test_a_class_deleted_under_a_running_lesson_loses_nothing(hub, at):
     hub.room.people.classes.delete(at.id)
     hub.room.assignments.forget(at.id)
     assert not desk.context.aids.touch
-    desk.does(lambda: desk.view("choose")._finish())
+    desk.finish()
     assert (
         len(hub.records.history(ada.id)) == 1 and desk.said[0] == "warning"
     )  # nothing was done yet: not passed
@@ -112,7 +133,7 @@ def test_what_somebody_does_is_kept_and_stuck_is_seen_after_three_minutes(hub, a
     desk.does(desk.live.stop)
     assert seen(hub, ada, now + 2.0 + STUCK).state == "stopped"
     desk.does(desk.live.release)
-    desk.does(lambda: desk.view("choose")._finish())
+    desk.finish()
     assert seen(hub, ada, now + 3.0 + STUCK).state == "finished"
     hub.depart(desk.live, desk)
     assert seen(hub, ada, now + 4.0 + STUCK).state == "away"

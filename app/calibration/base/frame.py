@@ -190,3 +190,13 @@ def adjoint(T_a_b: Pose) -> np.ndarray:
     out[:3, :3] = out[3:, 3:] = T_a_b.rotation
     out[:3, 3:] = cross(T_a_b.position[None, :], T_a_b.rotation.T).T
     return out
+
+
+def in_parent(T_a_b: Pose, covariance: np.ndarray) -> np.ndarray:
+    """(6, 6) of where b stands in a, along and about the axes of a: what belongs beside T_a_b's own numbers.
+
+    Args:
+        covariance: (6, 6) the same in b's axes, see the top of this file.
+    """
+    turn = np.kron(np.eye(2), T_a_b.rotation)
+    return turn @ covariance @ turn.T

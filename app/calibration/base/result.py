@@ -8,7 +8,6 @@ import numpy as np
 
 from app.calibration.base.arcfit import ArcFit
 from app.calibration.base.arcs import Arcs
-from app.calibration.base.frame import point_jacobian
 from app.calibration.result import Warning_
 from app.geometry import Pose
 from app.phrases import Phrase
@@ -111,8 +110,3 @@ class BaseCalibration:
     def sigma_rotation(self) -> np.ndarray:
         """(3,) [rad] one-sigma of the turn about the frame's axes."""
         return np.sqrt(np.diag(self.covariance)[3:])
-
-    def covariance_at(self, p_base: np.ndarray) -> np.ndarray:
-        """(3, 3) [m^2] of the place of a point held in the base frame, in that frame's axes; p_base (3,) [m]."""
-        j = point_jacobian(p_base)
-        return j @ self.covariance @ j.T

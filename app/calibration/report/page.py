@@ -8,7 +8,7 @@ from markupsafe import Markup, escape
 from app.calibration.captures import of_role, stack
 from app.calibration.quality.region import ellipsoid, half_widths
 from app.calibration.report.cell_picture import cell_picture
-from app.calibration.report.pictures import distance_picture, tilt_picture, tool_picture
+from app.calibration.report.pictures import error_picture, tilt_picture, tool_picture
 from app.calibration.solving import Solved
 from app.calibration.vocabularies import vocabularies
 from app.calibration.wording import FALLBACK, name_of, phrase
@@ -94,7 +94,7 @@ class _Sheet:
         if measured:
             rotations, _ = stack(of_role(points.captures, "touch") or of_role(points.captures, "plane"))
             pictures["tilt"] = tilt_picture(rotations, t) if len(rotations) else ""
-            pictures["distance"] = distance_picture(result, self._solved.left_out, t)
+            pictures["error"] = error_picture(result, self._solved.left_out, t)
             pictures["cell"] = cell_picture(result, points.captures, points.robot, t)
         return {name: Markup(drawn) for name, drawn in pictures.items()}
 
@@ -125,7 +125,7 @@ class _Sheet:
         return out
 
     def _touches_head(self) -> list[str]:
-        names = ("touch", "row", "distance", "x", "y", "z", "shift", "heldout", "weight")
+        names = ("touch", "row", "error", "x", "y", "z", "shift", "heldout", "weight")
         return [name if len(name) == 1 else self._t(f"column_{name}") for name in names]
 
     def _touches(self) -> list[tuple[str, ...]]:
@@ -184,5 +184,9 @@ class _Sheet:
         read = phrase("sheet.read_poses", form=form.key) if form else phrase("sheet.read_joints")
         if not len(points.captures):
             read = phrase("sheet.read_typed")
-        fields = {"method": result.method, "axes": result.orientation, "count": len(points.captures)}
+        fields = {
+            "method": phrase(f"method.{result.method}"),
+            "axes": phrase(f"axes.{result.orientation}"),
+            "count": len(points.captures),
+        }
         return self._t("method", read=read, **fields)

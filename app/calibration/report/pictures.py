@@ -56,10 +56,10 @@ def tool_picture(result: ToolCalibration, words: Words, width: int = 300, height
     return "".join(parts) + "</svg>"
 
 
-def distance_picture(
+def error_picture(
     result: ToolCalibration, left_out: Sequence[LeftOut], words: Words, width: int = 330, height: int = 190
 ) -> str:
-    """One bar a touch: its distance, and beside it how far the tool point moves without it."""
+    """One bar a touch: its error, and beside it how far the tool point moves without it."""
     distances = mm(result.per_point)
     shifts = {entry.index: mm(entry.shift) for entry in left_out}
     top = max([*distances, *shifts.values(), 1e-6]) * 1.1
@@ -69,7 +69,7 @@ def distance_picture(
     def y(value: float) -> float:
         return height - bottom - (height - bottom - room) * value / top
 
-    parts = [f'<svg viewBox="0 0 {width} {height}" role="img" aria-label="{words("picture_distance")}">']
+    parts = [f'<svg viewBox="0 0 {width} {height}" role="img" aria-label="{words("picture_error")}">']
     for value in _ticks(top):
         parts.append(line(np.array([left, y(value)]), np.array([width, y(value)]), SOFT, 0.5, 0.5))
         parts.append(text(left - 4, y(value) + 3, f"{value:g}", SOFT, 9, "end"))
@@ -119,6 +119,35 @@ def tilt_picture(rotations: np.ndarray, words: Words, width: int = 190, height: 
         parts.append(f'<circle cx="{x:.1f}" cy="{y:.1f}" r="7" fill="{INK}"/>')
         parts.append(text(x, y + 3, str(i + 1), "white", 9, "middle"))
     parts.append(text(width / 2, height - 3, words("picture_tilt"), SOFT, 10, "middle"))
+    return "".join(parts) + "</svg>"
+
+
+def arc_picture(
+    errors: np.ndarray, used: np.ndarray, caption: str, width: int = 400, height: int = 74
+) -> str:
+    """One bar a point of an arc: how far it lies off its circle; what was set aside is grey.
+
+    Args:
+        errors: (n,) [m].
+        used: (n,) False where a point was set aside.
+        caption: what it is, escaped.
+    """
+    values = mm(errors)
+    top = max(float(values[used].max(initial=0.0)), 1e-6) * 1.1
+    left, low, high = 42.0, 16.0, 8.0
+    step = (width - left - 8) / max(len(values), 1)
+
+    def y(value: float) -> float:
+        return height - low - (height - low - high) * min(value / top, 1.0)
+
+    parts = [f'<svg viewBox="0 0 {width} {height}" role="img" aria-label="{caption}">']
+    for value in _ticks(top)[:3]:
+        parts.append(line(np.array([left, y(value)]), np.array([width, y(value)]), SOFT, 0.5, 0.5))
+        parts.append(text(left - 4, y(value) + 3, f"{value:g}", SOFT, 9, "end"))
+    for k, (value, kept) in enumerate(zip(values, used, strict=True)):
+        x = left + step * (k + 0.15)
+        parts.append(_bar(x, y(value), step * 0.7, height - low - y(value), INK if kept else SOFT))
+    parts.append(text(left, height - 3, caption, SOFT, 10))
     return "".join(parts) + "</svg>"
 
 

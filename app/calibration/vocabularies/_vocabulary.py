@@ -20,7 +20,7 @@ class Words:
     Args:
         modes: mode key -> the maker's name for it; modes without a name keep their own title.
         steps: role -> title; `{n}` is the number of the step among its kind.
-        mean: what the maker calls the mean distance to the touched point.
+        mean: what the maker calls the mean error, over the touches, off the touched point.
         max: what the maker calls the largest.
     """
 

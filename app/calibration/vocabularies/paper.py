@@ -20,8 +20,8 @@ VOCABULARY = Vocabulary(
                 "x": "Orientation point along +X",
                 "z": "Orientation point along +Z",
             },
-            "mean distance",
-            "largest distance",
+            "mean error",
+            "largest error",
         ),
         "zh": Words(
             {
@@ -35,8 +35,8 @@ VOCABULARY = Vocabulary(
                 "x": "+X 方向姿态标定点",
                 "z": "+Z 方向姿态标定点",
             },
-            "平均距离",
-            "最大距离",
+            "平均偏差",
+            "最大偏差",
         ),
     },
 )

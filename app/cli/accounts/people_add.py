@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from dataclasses import dataclass
 from typing import Literal
 
@@ -30,6 +31,10 @@ class Add(Kept):
             raise InputError(
                 "the first account is an administrator's", column="--role", expected="administrator"
             )
+        first = not people.any()
         person = people.add(login, self.name or login, self.role, typed_secret("password"), by=BY)
         print(f"{person.login}: {person.role}")
+        if first:
+            said = "teachframe people: a pendant that runs already asks for log-ins once it is started again"
+            print(said, file=sys.stderr)
         return 0

@@ -102,7 +102,7 @@ class Command:
         print(f"{done}, {counts.broken} without a diagnosis: {self.out}", file=sys.stderr)
         if left_out:
             print(f"{left_out} rows of files that are no longer given were left out", file=sys.stderr)
-        summary = summarised(read_rows(self.out))
+        summary = summarised(read_rows(self.out), ledger.run)
         sys.stdout.write(as_text(summary, self.language))
         if self.report is not None:
             write_text(self.report, as_page(summary, self.language))

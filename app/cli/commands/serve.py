@@ -144,7 +144,8 @@ class Command:
         if self.port not in (0, port):
             print(f"teachframe serve: port {self.port} is taken, using {port}", file=sys.stderr)
         print(f"Teachframe pendant: {address}", flush=True)
-        print(f"sessions are kept in {store.database.name}; stop with Ctrl-C", file=sys.stderr, flush=True)
+        kept = store.database.file or store.database.name
+        print(f"sessions are kept in {kept}; stop with Ctrl-C", file=sys.stderr, flush=True)
 
     def _people(self, store: Store) -> People | None:
         """The accounts, where there are some; without any, only browsers of this machine come in.

@@ -3,7 +3,8 @@
 Evidence takes the noise for known. Where a model is not complete, what it leaves hangs together and the evidence of
 small laws is too high: there a law stays only if the log is predicted worse without it. And whatever the evidence
 prefers, a description that predicts plainly better is taken instead: masses, friction, offsets and rotors by plain
-least squares are among those compared. All are weighed as they will be solved: by the noise of plain least squares.
+least squares are among those compared, the same held ever closer to the description, and the description itself. All
+are weighed as they will be solved: by the noise of plain least squares.
 
 Source: Geisser (1975), The predictive sample reuse method, JASA 70; stretches because neighbours hang together.
 """
@@ -18,7 +19,8 @@ from scipy.linalg import LinAlgError, cho_factor, cho_solve
 from app.diagnosis.dynamic.families import ordinary
 from app.diagnosis.dynamic.solution import FOLDS, folds_of, plain_noise
 from app.diagnosis.regression.evidence import Selection
-from app.diagnosis.thresholds.predicting import PLAINLY, WIDE, WORTH
+from app.diagnosis.regression.triangular import inverse_of
+from app.diagnosis.thresholds.predicting import CLOSER, PLAINLY, WIDE, WORTH
 
 if TYPE_CHECKING:
     from app.diagnosis.dynamic.study import Study
@@ -44,7 +46,8 @@ def by_prediction(study: Study, unfinished: bool) -> Selection:
     own, least = crossed.total(chosen), crossed.total({**kept, **plain})
     if unfinished or least < (1.0 - PLAINLY) * own:
         starts = [chosen, {**_beside(study, chosen, plain), **plain}]
-        found = [*(crossed.pruned(s) for s in starts), {**kept, **plain}]
+        closer = [{**kept, **dict.fromkeys(plain, width)} for width in CLOSER]
+        found = [*(crossed.pruned(s) for s in starts), {**kept, **plain}, *closer, kept]
         best = min(found, key=crossed.total)
         first = found[0]
         return best if crossed.total(best) < (1.0 - PLAINLY) * crossed.total(first) else first
@@ -148,7 +151,7 @@ class Crossed:
         try:
             for k in range(FOLDS):
                 matrix, right = self._normal(k, columns, precision)
-                inverse = cho_solve(cho_factor(matrix, lower=True), np.eye(len(columns)))
+                inverse = inverse_of(np.linalg.cholesky(matrix))
                 w = inverse @ right
                 each = np.repeat(w[:, None], len(bundles), axis=1)
                 for i, part in enumerate(parts):

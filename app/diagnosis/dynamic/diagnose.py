@@ -22,6 +22,7 @@ from app.diagnosis.result import Diagnosis, Progress
 from app.diagnosis.thresholds.naming_logs import CHANGE
 from app.kinematics import RobotModel
 from app.recordings import Table
+from app.steps import listened
 
 
 def diagnose(
@@ -50,7 +51,8 @@ def diagnose(
     options: dict[str, Any]
     tell(0.0, "reading")
     stretch: dict[str, float] = trust_of(table)
-    log, motion, without = ready(table, robot)
+    with listened(lambda share, what: tell(0.1 * share, what), "reading"):
+        log, motion, without = ready(table, robot)
     first: tuple[str, ...] = ()
     single: frozenset[str] = frozenset()
     given = tuple(model.effects) if model is not None else ()

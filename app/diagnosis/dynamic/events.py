@@ -8,7 +8,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from app.diagnosis.dynamic.event_rows import at_exact_rows
 from app.diagnosis.dynamic.event_sums import between, block_gains, by_rows, gains
+from app.diagnosis.dynamic.event_white import WhitePart, sums_of, white_parts
 from app.diagnosis.dynamic.pieces import PIECES, Pieces, beside, from_start, spells, windows
 from app.diagnosis.dynamic.swelling import swelling
 from app.diagnosis.effects.effect import Place
@@ -41,6 +43,7 @@ class Events:
         ends = np.cumsum([0, *(len(law.linear) for law in self._every)]).tolist()
         self._own = {k.key: slice(a, b) for k, a, b in zip(self._every, ends, ends[1:], strict=False)}
         self._posterior: tuple[Selection, Posterior] | None = None
+        self._throughout: dict[str, dict[int, np.ndarray]] = {}
         self.forget()
 
     def forget(self) -> None:
@@ -59,7 +62,7 @@ class Events:
             self._posterior = (dict(selection), self.evidence.posterior(selection))
         return self._posterior[1]
 
-    def _beside(self, selection: Selection):
+    def beside(self, selection: Selection):
         """Inverse of the selection's M, its columns joint by joint and the residual, kept for the same selection."""
         if self._cached is not None and self._cached[0] == selection:
             return self._cached[1]
@@ -83,39 +86,39 @@ class Events:
             surely: by what friction cannot hide alone, joints while they move, and by no more than it would be if the
                 noise during the event were whatever the event leaves there: a loud stretch is no event.
         """
-        inverse, parts, residual = self._beside(selection)
-        columns, widths = law.block(self.state, place)
+        inverse, parts, residual = self.beside(selection)
         counts = None  # rows of each joint that speak for it, where not all do
         if surely and law.hidden:
             counts = np.abs(self.state.qd) >= STRIBECK[-1] * self.state.speed
-        d, a = len(widths), len(inverse)
-        gram, cross, right = np.zeros((d, d)), np.zeros((d, a)), np.zeros(d)
-        squares, rows_in = 0.0, 0
-        for j, values in columns.items():
-            rows = np.flatnonzero(values.any(axis=1))
-            if not self.design.alive[j] or not len(rows):
-                continue
-            # An event is nothing outside its window and what the filter remembers of it.
-            begin, whitener = max(int(rows[0]), SKIPPED) - SKIPPED, self.design.whiteners[j]
-            end = int(rows[-1]) + 1 + whitener.memory
-            white = whitener(values[begin:end] * widths)
-            part = slice(begin, begin + len(white))
-            left = residual[j][part]
-            if counts is not None:
-                own = counts[SKIPPED:][part, j]
-                white, left = white * own[:, None], left * own
-                rows_in += int(own.sum())
-            else:
-                rows_in += len(left)
-            squares += float(left @ left)
-            gram += white.T @ white
-            cross[:, parts[j][1]] += white.T @ parts[j][0][part]
-            right += white.T @ left
-        block = gram - cross @ inverse @ cross.T + np.eye(d)
-        fit = 0.5 * float(right @ np.linalg.solve(block, right))
-        if surely and 2.0 * fit < squares:
-            fit = min(fit, -0.5 * rows_in * float(np.log1p(-2.0 * fit / squares)))
+        found = sums_of(self.white_parts(law, place), parts, residual, len(inverse), counts)
+        block = found.gram - found.cross @ inverse @ found.cross.T + np.eye(len(found.right))
+        fit = 0.5 * float(found.right @ np.linalg.solve(block, found.right))
+        if surely and 2.0 * fit < found.squares:
+            fit = min(fit, -0.5 * found.rows * float(np.log1p(-2.0 * fit / found.squares)))
         return fit - 0.5 * float(np.linalg.slogdet(block)[1]) - law.penalty - place.cost
+
+    def white_parts(self, law: Law, place: Place) -> dict[int, WhitePart]:
+        """Whitened columns of a law at a place, joint by joint, where they are not nothing."""
+        if law.windowed:
+            return self.shaped(law, law.shape(self.state, place))
+        columns, widths = law.block(self.state, place)
+        return white_parts({j: c * widths for j, c in columns.items()}, self.design)
+
+    def shaped(self, law: Law, shape: np.ndarray) -> dict[int, WhitePart]:
+        """The same of an event that there is so much of, (M,), at each time."""
+        inside = np.flatnonzero(shape)
+        if not len(inside):
+            return {}
+        begin, end = int(inside[0]), int(inside[-1]) + 1
+        part = {j: c[begin:end] * shape[begin:end, None] for j, c in self._lasting(law).items()}
+        return white_parts(part, self.design, begin)
+
+    def _lasting(self, law: Law) -> dict[int, np.ndarray]:
+        """Columns of an event as if it lasted all the time, in nominal widths."""
+        if law.key not in self._throughout:
+            columns, widths = law.block(self.state, Place({"body": "tool"}))
+            self._throughout[law.key] = {j: c * widths for j, c in columns.items()}
+        return self._throughout[law.key]
 
     # -------------------------------------------------------------- events
 
@@ -211,12 +214,9 @@ class Events:
         return np.concatenate([[0.0], np.cumsum(goes) / goes.sum()])
 
     def _whitened(self) -> list[np.ndarray]:
-        """Columns of a load and of a force, scaled to nominal widths, whitened, of the whole log."""
+        """Columns of a load and of a force, in nominal widths, whitened, of the whole log."""
         if self._columns is None:
-            everything = []
-            for law in self._every:
-                columns, widths = law.block(self.state, Place({"body": "tool"}))
-                everything.append({j: c * widths for j, c in columns.items()})
+            everything = [self._lasting(law) for law in self._every]
             self._columns = [
                 self.design.whiteners[j](np.hstack([part[j] for part in everything])) * self.design.alive[j]
                 for j in range(self.design.joints)
@@ -236,7 +236,7 @@ class Events:
         self, selection: Selection, law: Law, where: dict[str, float], cost: float
     ) -> tuple[Place, float]:
         """Each edge in turn at the most evidence, then at single rows; a contact may also swell and fade."""
-        inverse, parts, residual = self._beside(selection)
+        inverse, parts, residual = self.beside(selection)
         held, once = len(law.ends) == 1, len(where) == 1
         white = [z[:, self._own[law.key]] for z in self._whitened()]
         rows = len(residual[0])
@@ -253,6 +253,8 @@ class Events:
             if held:
                 inside = np.flatnonzero((share >= EDGE) & (share <= 1.0 - EDGE))
                 low, high = max(low, int(inside[0])), max(min(high, int(inside[-1])), int(inside[0]))
+            if high <= low:  # the log leaves this edge no other place
+                continue
             # Sums over the part that every trial has, and every few rows over what it may have more.
             fixed = slice(high, edges[1]) if k == 0 else slice(edges[0], low)
             sums = between(white, parts, residual, len(inverse), fixed)
@@ -262,32 +264,14 @@ class Events:
                 more = [v[-1] - v for v in more]
             gram, cross, right = (s + m for s, m in zip(sums, more, strict=True))
             gain = block_gains(gram, cross, right, inverse)
-            if len(gain):  # none where the log ends before the shortest event does
-                edges[k] = min(low + STRIDE * int(gain.argmax()), high)
+            edges[k] = min(low + STRIDE * int(gain.argmax()), high)
         step = float(np.median(np.diff(t)))
         times = [float(t[min(k, rows - 1)]) - (0.5 * step if k < rows else -step) for k in edges]
         place = self._at(dict(zip(where, times, strict=False)), cost)
-        best = self._at_exact_rows(selection, law, place, step)
+        best = at_exact_rows(self, selection, law, place, step)
         if law.swells:
             best = max(best, swelling(self, selection, law, place), key=lambda found: found[0])
         return best[1], best[0]
-
-    def _at_exact_rows(
-        self, selection: Selection, law: Law, place: Place, step: float
-    ) -> tuple[float, Place]:
-        """The event with its edges moved by single rows.
-
-        Sums over rows take what is whitened before it is cut; an edge that is cut before, as it is, may lie as many
-        rows off as the noise remembers.
-        """
-        best = (self.gain(selection, law, place), place)
-        for end in [end for end in (*law.ends, law.until) if end in place.where]:
-            for rows in (-4, -3, -2, -1, 1, 2, 3, 4):
-                trial = Place(
-                    {**best[1].where, end: place.where[end] + rows * step}, place.fixed, cost=place.cost
-                )
-                best = max(best, (self.gain(selection, law, trial), trial), key=lambda found: found[0])
-        return best
 
 
 def _is_event(found: object) -> bool:

@@ -57,3 +57,23 @@ def completed(study: Study) -> Selection:
     inside = {c for g in more for c in study.group(g).columns.tolist()}
     rest = {g: v for g, v in chosen.items() if not inside & set(study.group(g).columns.tolist())}
     return {**rest, **more}
+
+
+def plainer(study: Study) -> Selection:
+    """The selection with every law that adds nothing to one it contains exchanged for that one, by the evidence.
+
+    Beside a family of small constants of all joints the large one of a single joint cannot enter: it would take the
+    family's place. So a spring enters instead, whose stiffness is nothing and whose constant is that joint's.
+    """
+    now, laws = study.selection, [label(group) for group in study.evidence.groups]
+    for g in [g for g in now if study.label(g).law.contains]:
+        law, joint = study.label(g).law, study.label(g).place.where["joint"]
+        inside = [c for c in laws if c.law.key == law.contains and not c.whole]
+        inner = next((c for c in inside if c.place.where["joint"] == joint), None)
+        if inner is None:
+            continue
+        own = study.add(inner.law, inner.place, inner.needs)
+        rest = {k: v for k, v in now.items() if k != g}
+        trial = max(({**rest, own: float(v)} for v in study.group(own).widths), key=study.evidence.score)
+        now = trial if study.evidence.score(trial) > study.evidence.score(now) else now
+    return now

@@ -34,7 +34,7 @@ from app.diagnosis.result import (
     Quality,
 )
 from app.diagnosis.thresholds.naming import CERTAIN, UNNAMED_SHARE
-from app.diagnosis.thresholds.naming_logs import CHANGE, HOPELESS, NAME, RIPPLES
+from app.diagnosis.thresholds.naming_logs import CHANGE, HOPELESS, INCOMPLETE, NAME, RIPPLES
 from app.diagnosis.thresholds.noise import LEFT_P
 from app.diagnosis.wording import note
 
@@ -48,8 +48,9 @@ def build(fitted: Fitted, file: str, *, reference: Fitted | None = None) -> Diag
     bare = fitted.take(as_given(robot.joint_count))
     before = bare.y - bare.description
     noise = _noise(fitted)
+    complete = not fitted.left.any() and fitted.error**2 <= INCOMPLETE * noise.value**2
     found = [
-        told_as_load(study, m, study.samples.nominal)
+        told_as_load(study, m, study.samples.nominal, complete)
         for m in members(
             study, fitted.solution, fitted.loose, before, noise.value**2 / study.samples.window, fitted.left
         )

@@ -10,7 +10,7 @@ import numpy as np
 
 from app.diagnosis.dynamic.conventions import Reading
 from app.diagnosis.dynamic.crossed import by_prediction
-from app.diagnosis.dynamic.families import completed
+from app.diagnosis.dynamic.families import completed, plainer
 from app.diagnosis.dynamic.shapes import Tangent, add_tangents
 from app.diagnosis.dynamic.solution import Solution, solve
 from app.diagnosis.dynamic.study import Study
@@ -28,6 +28,9 @@ from app.kinematics import RobotModel
 
 ROUNDS = 3
 SETTLING = 5  # repetitions of undoing what remains of a delay, a factor, a mounting
+#: Shares of a diagnosis: the search begins, has selected, has its values; and the part of what is left of the search
+#: that a round takes.
+_BEGUN, _SELECTED, _SOLVED, _ROUND = 0.15, 0.6, 0.75, 0.4
 #: In nominal widths: what remains of an undone effect is nothing then.
 SETTLED = 0.003
 
@@ -104,8 +107,11 @@ def fit(
         return with_given(samples, given) if given else (samples, None)
 
     study = asked = None
+    at = _BEGUN
     for k in range(ROUNDS):
-        tell(0.15 + 0.6 * k / ROUNDS, "laws")
+        # How many rounds there are nobody knows before: each takes its part of what they all may take.
+        round_ = _ROUND * (_SELECTED - at)
+        tell(at, "laws")
         samples, known = taken(hypothesis)
         asked = Study(
             samples,
@@ -117,21 +123,28 @@ def fit(
             first=first,
             single=single,
         )
+        tell(at + 0.25 * round_, "laws")
         asked.run(start)
+        tell(at + 0.75 * round_, "laws")
         left = (asked.leftover_p < LEFT_P) & (asked.leftover_ratio > LEFT_RATIO)
         if prior is None and not left.any():  # with structure left, gains would bend to it
             asked.selection = completed(asked)
         study, before = asked, {asked.label(g).identity for g in asked.selection}
         hypothesis, moved = _settled(study, hypothesis, taken)
+        at += round_
         start = [asked.label(g) for g in asked.selection]
         if not moved or (k and kept >= before - {("", 0)}):
             break
         kept = kept | (before - {("", 0)})
     assert asked is not None
+    tell(at, "laws")
+    asked.selection = plainer(asked)
     left = (asked.leftover_p < LEFT_P) & (asked.leftover_ratio > LEFT_RATIO)
+    tell(at + 0.5 * (_SELECTED - at), "laws")
     asked.selection = by_prediction(asked, bool(left.any()))
     if prior is None and not left.any():
         asked.selection = completed(asked)
+    tell(_SELECTED, "laws")
     # Where structure is left, or values learnt on another log carry its, the noise as fitted is not all that is wrong.
     plain = bool(left.any()) or prior is not None
     readings = [hypothesis]
@@ -143,6 +156,7 @@ def fit(
         study = Study(samples, without=without, stretch=stretch, known=known, like=asked, prior=prior)
         undone = [g for g in study.selection if study.label(g).held]
         found.append((study, undone, solve(study, plain=plain, held=undone)))
+        tell(_SELECTED + (_SOLVED - _SELECTED) * len(found) / len(readings), "laws")
     study, undone, solution = min(found, key=lambda one: _heldout(one[0], one[2]))
     loose = solution
     bends = add_tangents(study, solution)

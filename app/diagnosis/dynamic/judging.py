@@ -15,6 +15,7 @@ from app.diagnosis.observations.joint_log import Log
 from app.diagnosis.result import Quality
 from app.kinematics import RobotModel
 from app.recordings import Table
+from app.steps import part
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,9 +53,12 @@ def judged(table: Table, robot: RobotModel, model: SavedModel) -> JudgedLog:
     Raises:
         InputError: the log cannot be used.
     """
-    log, motion, _ = ready(table, robot)
-    bare = take(log, robot, motion, as_given(robot.joint_count))
-    rows = fingerprint(log)
-    found = predict(log, robot, motion, holding(model, rows))
+    with part(0.0, 0.7):
+        log, motion, _ = ready(table, robot)
+    with part(0.7, 0.85, "beside the simulation"):
+        bare = take(log, robot, motion, as_given(robot.joint_count))
+        rows = fingerprint(log)
+    with part(0.85, 1.0, "beside the simulation"):
+        found = predict(log, robot, motion, holding(model, rows))
     own = model.taught.heldout_rms if rows == model.taught.rows else None
     return JudgedLog(log, bare, bare.y - bare.description, found.residual, own)

@@ -21,7 +21,7 @@ from app.diagnosis.effects.effect import Place
 from app.diagnosis.models.dynamic.library import Candidate, laws
 from app.diagnosis.thresholds.evidence import NOMINAL
 from app.diagnosis.thresholds.naming import RIVAL
-from app.diagnosis.thresholds.naming_logs import HEAVIER, LOAD_MASS, LOAD_SURE, WEIGHED
+from app.diagnosis.thresholds.naming_logs import HEAVIER, LOAD_MASS, LOAD_SURE, STANDS_OUT, WEIGHED
 from app.kinematics.dynamics import PER_LINK
 
 if TYPE_CHECKING:
@@ -29,14 +29,16 @@ if TYPE_CHECKING:
 
 
 SHOWN = 4  # mass and first moment: the rest of a body hardly shows
+TRIED = 61  # weights of a load, over those that the log leaves open
 
 
-def told_as_load(study: Study, member: Member, nominal: np.ndarray) -> Member:
+def told_as_load(study: Study, member: Member, nominal: np.ndarray, complete: bool) -> Member:
     """The member, as a load where it is one; with the other reading listed where the log cannot exclude it.
 
     Args:
         member: of any law; only masses of a single link are looked at.
         nominal: (10 n,) the description's inertial parameters.
+        complete: False where more than noise is left, which a load whose weight is open may only stand in for.
     """
     law, where = member.candidate.law, member.candidate.place.where
     if not law.added or not member.named or int(where["link"]) == study.state.joints:
@@ -46,14 +48,37 @@ def told_as_load(study: Study, member: Member, nominal: np.ndarray) -> Member:
     weighed = member.values[0] > WEIGHED * np.sqrt(max(member.covariance[0, 0], 0.0))
     possible = weighed and load.lawful(load.saved(place, member.values))
     if study.prior is not None:
-        told = replace(member, candidate=Candidate(load, place), named=possible)
-        return told if possible else replace(member, named=False)
+        light = _as_light(study, member) if complete and not possible else None
+        added = member if possible else light
+        if added is None:
+            return replace(member, named=False)
+        return replace(added, candidate=Candidate(load, place))
     better = _nats(study, member, nominal) if possible else -np.inf
     if better > LOAD_SURE:
         return replace(member, candidate=Candidate(load, place))
     if better > -RIVAL:
         return replace(member, alike=((Candidate(load, place), LOAD_SURE - better),))
     return member
+
+
+def _as_light(study: Study, member: Member) -> Member | None:
+    """The member as a load whose weight the log does not tell, only its moment: as light as one can be that reaches no
+    further than the link is large. None where no weight that the log leaves open is one of a load, or where it
+    explains no more than laws that are missing might.
+    """
+    explained = study.design.prediction(member.columns, member.values / study.design.scale[member.columns])
+    spread = np.array([whitener.spread for whitener in study.design.whiteners])
+    if not np.any(np.sqrt(np.mean(explained**2, axis=0)) > STANDS_OUT * spread):
+        return None
+    size = float(study.state.link_size[int(member.candidate.place.where["link"]) - 1])
+    values, with_mass = member.values, member.covariance[:, 0]
+    variance = max(float(with_mass[0]), 1e-300)
+    open_by = WEIGHED * float(np.sqrt(variance))
+    for mass in np.linspace(values[0] - open_by, values[0] + open_by, TRIED):
+        moved = values + with_mass / variance * (mass - values[0])
+        if mass > 0.0 and np.linalg.norm(moved[1:SHOWN]) <= size * mass:
+            return replace(member, values=moved)
+    return None
 
 
 def _nats(study: Study, member: Member, nominal: np.ndarray) -> float:

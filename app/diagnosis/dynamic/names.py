@@ -102,7 +102,9 @@ def members(
         if candidate.law.series:
             named = named and ripples[candidate.place.where["joint"]] <= RIPPLES
         named = named and (candidate.law.key, candidate.place.where.get("joint")) not in contained
-        named = named and candidate.law.family != UNNAMED and candidate.law.beyond_trust(weights)
+        named = named and candidate.law.family != UNNAMED
+        # The description's masses are trusted only so far, but they do not change from one log to the next.
+        named = named and (study.prior is not None or candidate.law.beyond_trust(weights))
         if study.label(g).whole:
             needed = MEMBER_WALD + MEMBER_WALD_PARAMETER * (len(columns) - 1)
             named = named and statistic > needed

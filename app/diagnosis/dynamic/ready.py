@@ -19,6 +19,7 @@ from app.kinematics import RobotModel
 from app.kinematics.dynamics import inverse_dynamics
 from app.phrases import Said
 from app.recordings import Table
+from app.steps import part
 from app.units import deg, mm
 
 POSES = 200  # of a log, at which the weight of its joints is looked at
@@ -30,8 +31,10 @@ def ready(table: Table, robot: RobotModel) -> tuple[Log, Motion, frozenset[str]]
     Raises:
         InputError: it cannot be used; names file, row and column.
     """
-    log = read_log(table, robot)
-    motion = motion_of(log, robot)
+    with part(0.0, 0.5):
+        log = read_log(table, robot)
+    with part(0.5, 1.0):
+        motion = motion_of(log, robot)
     without: frozenset[str] = frozenset()
     if log.lacking:
         gains, sigmas = estimated_gains(log, robot, motion, table)

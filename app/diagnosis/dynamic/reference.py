@@ -68,12 +68,13 @@ class KnownBefore(Law):
         return np.ones(self.half.shape[1])
 
     def columns(self, columns: State, place: Place) -> Torques:
-        out: dict[int, np.ndarray] = {}
+        of_joint: dict[int, tuple[list[np.ndarray], list[np.ndarray]]] = {}
         for term in self.terms:
             for joint, values in term.law.columns(columns, term.place).items():
-                added = values @ self.half[term.part]
-                out[joint] = out[joint] + added if joint in out else added
-        return out
+                every, half = of_joint.setdefault(joint, ([], []))
+                every.append(values)
+                half.append(self.half[term.part])
+        return {j: np.hstack(every) @ np.vstack(half) for j, (every, half) in of_joint.items()}
 
     def turns(self) -> dict[int, tuple[float, float]]:
         """How dry friction of each joint turned on that log."""

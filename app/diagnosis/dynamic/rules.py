@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 from app.diagnosis.models.dynamic.library import Candidate, label
@@ -36,8 +36,8 @@ class Rules:
         self.evidence, self.joints, self.without = evidence, joints, without
         self._known_so_far: list[_Known] = []
 
-    def opens(self, selection: Mapping[int, float]) -> list[int]:
-        """Groups that may be taken: not in, not excluded by one that is, and with what they need."""
+    def opens(self, selection: Mapping[int, float], among: Sequence[int] | None = None) -> list[int]:
+        """Groups that may be taken, of all or of some: not in, not excluded by one that is, with what they need."""
         groups, known = self.evidence.groups, self._known()
         names = {known[g].name for g in selection}
         loose = [g for g in selection if g not in self.evidence.kept]
@@ -47,7 +47,7 @@ class Rules:
         fixed = {known[g].key for g in self.evidence.kept}
         clashing = {k for g in loose for k in known[g].clashes} | whole
         return [
-            g for g, k in enumerate(known)
+            g for g, k in (enumerate(known) if among is None else ((g, known[g]) for g in among))
             if not k.closed and k.key not in clashing and g not in selection and k.exclusive not in taken
             and (not k.needs or k.needs in names or k.within in whole)
             and (not k.clashes or keys.isdisjoint(k.clashes))

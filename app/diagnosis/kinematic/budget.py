@@ -6,6 +6,7 @@ import numpy as np
 
 from app.diagnosis.effects.effect import Level, Place
 from app.diagnosis.kinematic.description import Description
+from app.diagnosis.kinematic.elsewhere import changes
 from app.diagnosis.models.kinematic.saved import reach_of
 from app.diagnosis.models.kinematic.terms import Term
 from app.diagnosis.regression.heldout import folds_of, heldout_residuals
@@ -22,7 +23,7 @@ def shared_terms(
     """Every part of the model with the family it counts to.
 
     A mechanism holds as far as its own joint was seen to turn, what has no name where all joints were seen. Elsewhere
-    the calibration holds that would have been found without it (`_without`), unless it has a name of its own: so a
+    the calibration holds that would have been found without it (elsewhere.py), unless it has a name of its own: so a
     model that is carried far is no worse than a calibration.
     What has no name takes back from lower columns (see levels.py) counts as without a name.
 
@@ -37,7 +38,7 @@ def shared_terms(
     weights = np.zeros(linear.design.size)
     weights[found.posterior.columns] = found.posterior.weights
     back = _taken_back(found, weights, ranges)
-    without = _without(found, weights, spoken, local)
+    without, beside = changes(found, weights, spoken, local)
     out: list[tuple[str, Term]] = []
     for number, columns in linear.columns.items():
         candidate = library.fixed[number]
@@ -47,10 +48,11 @@ def shared_terms(
         elif candidate.effect.level == Level.UNKNOWN:
             own = _holds(candidate.place, ranges)
         near = local and candidate.effect.level != Level.CALIBRATION and candidate.label not in spoken
-        everywhere = weights[columns] + sum(w[columns] for w in without.values())
+        everywhere = weights[columns] + sum(w[columns] for w in without.values()) - beside[columns]
         parts = [(family, everywhere, own, near)]
         parts += [(UNNAMED, taken[columns], reach, local) for reach, taken in back]
         parts += [(family, -w[columns], reach_of(ranges, j), local) for j, w in without.items()]
+        parts += [(family, beside[columns], ranges, local)]
         for counted, values, reach, among in parts:
             if np.abs(values).max(initial=0.0) > _NONE:
                 reach = None if among else reach
@@ -90,46 +92,6 @@ def _taken_back(
         key = b"" if reach is None else reach.tobytes()
         out[key] = (reach, taken if key not in out else out[key][1] + taken)
     return list(out.values())
-
-
-def _without(
-    found: Description, weights: np.ndarray, spoken: frozenset[tuple], local: bool
-) -> dict[int, np.ndarray]:
-    """Joint -> (p,) by how much calibration would be another if its mechanisms without a name did not hold.
-
-    With `local` what has no name does not hold either.
-
-    The posterior of calibration alone at the learnt widths: (X'X + Gamma^-1)^-1 X'U w of what mechanisms explain.
-    """
-    library, linear, design = found.library, found.linear, found.linear.design
-    lower: list[int] = []
-    upper: dict[int, list[int]] = {}
-    for number in _inside(found):
-        candidate, columns = library.fixed[number], linear.columns[number].tolist()
-        level = candidate.effect.level
-        if not candidate.effect.lasts(candidate.place.where):
-            continue
-        if level == Level.CALIBRATION:
-            lower += columns
-        elif candidate.label not in spoken and (local or level == Level.MECHANISM):
-            upper.setdefault(int(candidate.place.where.get("joint", 0)), []).extend(columns)
-    if not lower or not upper:
-        return {}
-    low = np.unique(np.array(lower, int))
-    gamma = np.zeros(design.size)
-    for g, width in found.selection.items():
-        gamma[linear.groups[g].columns] += width
-    gram = design.matrix[np.ix_(low, low)] + np.diag(1.0 / gamma[low])
-    out: dict[int, np.ndarray] = {}
-    for joint, columns in upper.items():
-        high = np.unique(np.array(columns, int))
-        out[joint] = np.zeros(design.size)
-        out[joint][low] = np.linalg.solve(gram, design.matrix[np.ix_(low, high)] @ weights[high])
-    return out
-
-
-def _inside(found: Description) -> list[int]:
-    return [n for n in found.numbers() if len(found.linear.columns[n])]
 
 
 def shares(found: Description, parts: list[tuple[str, Term]], noise: float) -> dict[str, float]:

@@ -89,22 +89,22 @@ def _concluded(
     spoken = frozenset(found.library.fixed[n.number].label for n in names)
     kept = found.rows > OUTLIER_WEIGHT
     parts = budget.shared_terms(whole, spoken, local(whole, kept))
-    after = budget.heldout_after(whole, kept)
-    heldout = list(after.values())[-1] if after else quality_of(whole.state, kept).heldout_rms
-    saved = _model(recording, robot, written, whole, given, spoken, parts, heldout)
+    saved = _model(recording, robot, written, whole, given, spoken, parts)
     judgement = judged(recording, robot, saved, given)
+    after = budget.heldout_after(whole, judgement.kept)  # of the very rows that "before" and "after" count
+    heldout = list(after.values())[-1] if after else quality_of(whole.state, judgement.kept).heldout_rms
+    if heldout > 0:
+        taught = msgspec.structs.replace(saved.taught, heldout_rms=heldout)
+        saved = msgspec.structs.replace(saved, taught=taught)
+        judgement = replace(judgement, after_quality=replace(judgement.after_quality, heldout_rms=heldout))
     freedom = _freedom(whole)
     known_before = known_noise(written.recording)
     noise = noise_of(written.recording, known_before, judgement.after, judgement.kept, freedom)
     left = left_over(found, judgement, noise, known_before.dof, freedom)
     names = [] if left.hopeless else names
     said = (
-        ()
-        if left.hopeless
-        else (
-            *convention_findings(written, judgement),
-            *findings(found, names, judgement.after_quality.heldout_rms, seed),
-        )
+        *convention_findings(written, judgement, surely=left.hopeless),
+        *findings(found, names, judgement.after_quality.heldout_rms, seed),
     )
     shares = _families(whole, written, parts, said, names, judgement, left, after)
     return Diagnosis(
@@ -162,7 +162,6 @@ def _model(
     given: SavedModel | None,
     spoken: frozenset[tuple],
     parts: list[tuple[str, Term]],
-    heldout_mm: float,
 ) -> SavedModel:
     """The whole fit: conventions, what was known, findings, members of families and unnamed parts."""
     terms, claimed = [], set()
@@ -181,7 +180,7 @@ def _model(
         ),
         setup_numbers(found.state.setup),
         recording.file,
-        taught_by(recording, heldout_mm),
+        taught_by(recording),
     )
 
 

@@ -63,7 +63,8 @@ def named(found: Description) -> list[Named]:
         weights, covariance = found.posterior.of(columns)
         moves = _moves(found, columns, weights)
         wald = float(weights @ np.linalg.solve(covariance, weights))
-        if number in alone:
+        # Beside a family that has its columns too, a law alone loses nothing when it falls: the family takes it over.
+        if number in alone and not _in_family(found, alone[number]):
             rest = {k: v for k, v in found.selection.items() if k != alone[number]}
             gain = score - found.evidence.score(rest)
         else:
@@ -86,6 +87,13 @@ def named(found: Description) -> list[Named]:
     borne = max(len(np.unique(found.state.recording.pose)) // POSES_A_NAME, 1)
     out = out[:borne]
     return out if found.dense else _told_apart(found, out)
+
+
+def _in_family(found: Description, g: int) -> bool:
+    """True where another selected group has columns of this one."""
+    groups = found.linear.groups
+    own = set(groups[g].columns.tolist())
+    return any(own & set(groups[h].columns.tolist()) for h in found.selection if h != g)
 
 
 def _told_apart(found: Description, names: list[Named]) -> list[Named]:
@@ -244,7 +252,7 @@ def imitated(found: Description) -> Candidate | None:
             continue
         if found.library.fixed[group.label].effect.level != Level.UNKNOWN:
             continue
-        trial = Search(found.evidence, lambda selection: (), drop=UNKNOWN).pruned(
+        trial = Search(found.evidence, lambda selection, among=None: (), drop=UNKNOWN).pruned(
             found.evidence.tuned({**found.selection, u: 1.0}, 1)
         )
         fewer = len(found.selection) - len(trial)

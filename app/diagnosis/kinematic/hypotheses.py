@@ -8,10 +8,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from app.diagnosis.effects.effect import Level
+from app.diagnosis.kinematic.timing import delays
 from app.diagnosis.models.kinematic.candidates import library_of
 from app.diagnosis.models.kinematic.library import linearised
 from app.diagnosis.models.kinematic.rows import compared, t_likelihood, weighted_anew
-from app.diagnosis.observations.conventions import Convention, conventions, likelihood_of
+from app.diagnosis.observations.conventions import Convention, conventions, delayed, likelihood_of
 from app.diagnosis.observations.pose_data import StaticRecording
 from app.diagnosis.observations.pose_reading import renumbered
 from app.diagnosis.regression.evidence import Evidence
@@ -73,10 +74,21 @@ def _best(
     sample = plain.recording
     tried: list[tuple[float, Convention]] = []
     as_written = _likelihood(plain, sample)
-    for convention in conventions(sample):
+
+    def placed(convention: Convention) -> State | None:
         apart = convention.needs_neighbours
-        state = _fitted(_some(convention.placed(recording), keep) if apart else convention.placed(sample))
-        if state is None or (apart and state.misfit > BESIDE * plain.misfit):
+        return _fitted(_some(convention.placed(recording), keep) if apart else convention.placed(sample))
+
+    def likelihood(seconds: float, even: float) -> float:
+        state = placed(delayed(seconds, even))
+        return -np.inf if state is None else _likelihood(state, sample)
+
+    on_the_move = bool(recording.situation.speed.any()) and recording.session_count == 1
+    times = delays(recording.situation.time, likelihood) if on_the_move else ()
+    others = conventions(sample, in_seconds=on_the_move)
+    for convention in (*others, *(delayed(*found) for found in times)):
+        state = placed(convention)
+        if state is None or (convention.needs_neighbours and state.misfit > BESIDE * plain.misfit):
             continue
         gain = _likelihood(state, sample) - as_written
         if gain > CONVENTION:

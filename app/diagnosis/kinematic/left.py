@@ -12,6 +12,7 @@ from app.diagnosis.effects.effect import Level
 from app.diagnosis.kinematic import budget
 from app.diagnosis.kinematic.description import Description
 from app.diagnosis.kinematic.findings import imitated
+from app.diagnosis.kinematic.judging import quality_of
 from app.diagnosis.models.kinematic.candidates import Candidate
 from app.diagnosis.observations.noise import residual_rms
 from app.diagnosis.result import UNNAMED, Noise
@@ -61,7 +62,9 @@ def left_over(
     where, strongest = {}, 0.0
     whole = found.calibrated or found
     taken = budget.shares(whole, budget.shared_terms(whole), 1.0)
-    share = taken.get(UNNAMED, 0.0)
+    before = judgement.before_quality.fit_rms**2
+    told = min(quality_of(found.plain, judgement.kept).fit_rms ** 2 / max(before, 1e-300), 1.0)
+    share = told * taken.get(UNNAMED, 0.0)  # conventions took the rest of `before` away
     cancelling = found.dense and sum(taken.values()) > CANCELLING
     if unnamed:
         score = found.evidence.score(found.selection)
@@ -75,7 +78,6 @@ def left_over(
     rival = imitated(found)
     if rival is not None:
         where = where or dict(rival.place.where)
-    before = judgement.before_quality.fit_rms**2
     if excess:
         after = judgement.after_quality.fit_rms**2
         share = max(share, (after / freedom - noise.value**2) / max(before - noise.value**2, 1e-12))

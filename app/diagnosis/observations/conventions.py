@@ -8,16 +8,20 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from app.diagnosis.effects.effect import Place
+from app.diagnosis.models.kinematic.in_motion import evenly, joints_at
 from app.diagnosis.observations.pose_data import StaticRecording
-from app.diagnosis.thresholds.conventions import HARDLY, TURNS
+from app.diagnosis.result import Parameter
+from app.diagnosis.thresholds.conventions import HARDLY, MOST_APART, TURNS
 from app.diagnosis.wording import note
 from app.kinematics import RobotModel
 from app.phrases import Said
 from app.units import DEG_PER_RAD, MM_PER_CM, MM_PER_INCH, MM_PER_M
 
-SIGN, SWAP, QUARTER, ANGLE_UNIT, LENGTH_UNIT, INVERSE, HORIZON, MIRROR, LATE = (float(i) for i in range(9))
+SIGN, SWAP, QUARTER, ANGLE_UNIT, LENGTH_UNIT, INVERSE, HORIZON, MIRROR, LATE, DELAY = (
+    float(i) for i in range(10)
+)
 #: The kinds, the one that people mix up most first.
-LIKELIHOOD = (SIGN, HORIZON, INVERSE, ANGLE_UNIT, LENGTH_UNIT, MIRROR, QUARTER, LATE, SWAP)
+LIKELIHOOD = (SIGN, HORIZON, INVERSE, ANGLE_UNIT, LENGTH_UNIT, MIRROR, QUARTER, LATE, DELAY, SWAP)
 #: Kinds that say nothing of the joints.
 _OF_THE_INSTRUMENT = (LENGTH_UNIT, INVERSE, MIRROR)
 #: A left-handed frame is a right-handed one whose last axis points the other way, up to where the instrument stands.
@@ -36,14 +40,24 @@ class Convention:
 
     def undone(self, recording: StaticRecording, robot: RobotModel) -> StaticRecording:
         """The recording as it should have been written."""
+        if self.place.fixed["kind"] == DELAY and not recording.situation.speed.any():
+            return recording  # learnt in motion: an arm that stops for each row is where its row says
         if self.place.fixed["kind"] in _OF_THE_INSTRUMENT:
             return self.placed(recording)
-        return recording.with_joints(robot, converted_joints(recording.q, self.place.fixed))
+        joints = converted_joints(recording.q, self.place.fixed, recording.situation.time)
+        return self._timed(recording).with_joints(robot, joints)
+
+    def _timed(self, recording: StaticRecording) -> StaticRecording:
+        """The recording at the times its rows were measured."""
+        if self.place.fixed["kind"] != DELAY or not self.place.fixed["even"]:
+            return recording
+        situation = recording.situation
+        return replace(recording, situation=replace(situation, time=evenly(situation.time)))
 
     @property
     def needs_neighbours(self) -> bool:
         """True where what belongs to a row stands in another one, so that no row can be looked at by itself."""
-        return self.place.fixed["kind"] == LATE
+        return self.place.fixed["kind"] in (LATE, DELAY)
 
     def placed(self, recording: StaticRecording) -> StaticRecording:
         """The same as far as base and tool go: loads and other drivers stay those of the joints as written."""
@@ -59,12 +73,17 @@ class Convention:
         if kind == INVERSE:
             assert recording.orientations is not None
             return replace(recording, orientations=np.swapaxes(recording.orientations, 1, 2))
-        situation = replace(recording.situation, q=converted_joints(recording.q, fixed))
+        joints = converted_joints(recording.q, fixed, recording.situation.time)
+        situation = replace(recording.situation, q=joints)
         return replace(recording, situation=situation)
 
 
-def converted_joints(q: np.ndarray, fixed: Mapping[str, float]) -> np.ndarray:
-    """(m, n) joint positions brought to the description's convention; others than joint kinds change nothing."""
+def converted_joints(q: np.ndarray, fixed: Mapping[str, float], time: np.ndarray) -> np.ndarray:
+    """(m, n) joint positions brought to the description's convention; others than joint kinds change nothing.
+
+    Args:
+        q: (m, n) as recorded, at times (m,) [s].
+    """
     out = q.copy()
     kind, j, other = fixed.get("kind"), int(fixed.get("joint", 1)) - 1, int(fixed.get("other", 1)) - 1
     if kind == SIGN:
@@ -79,6 +98,9 @@ def converted_joints(q: np.ndarray, fixed: Mapping[str, float]) -> np.ndarray:
         out[:, j] = q[:, j] + fixed["sense"] * q[:, other]
     elif kind == LATE:
         out = q[np.clip(np.arange(len(q)) - int(fixed["rows"]), 0, len(q) - 1)]
+    elif kind == DELAY:
+        stamped = evenly(time) if fixed["even"] else time
+        out = joints_at(time, q, stamped - fixed["seconds"])
     return out
 
 
@@ -107,6 +129,13 @@ def title_of(place: Place) -> Said:
     if kind == LATE:
         rows = int(fixed["rows"])
         return note("convention_late", rows=rows) if rows > 0 else note("convention_early", rows=-rows)
+    if kind == DELAY:
+        seconds = fixed["seconds"]
+        return (
+            note("convention_delay_even", seconds=seconds)
+            if fixed["even"]
+            else note("convention_delay", seconds=seconds)
+        )
     if kind == LENGTH_UNIT:
         if fixed["factor"] == MM_PER_INCH:
             return note("convention_inches")
@@ -116,8 +145,25 @@ def title_of(place: Place) -> Said:
     return note("convention_inverse")
 
 
-def conventions(recording: StaticRecording) -> Iterator[Convention]:
-    """Everything that is tried, likeliest first."""
+def parameters_of(place: Place) -> tuple[Parameter, ...]:
+    """What of a convention is a number that was measured; most are a choice."""
+    fixed = place.fixed
+    return (Parameter("delay", fixed["seconds"], fixed["std"], "s"),) if fixed["kind"] == DELAY else ()
+
+
+def delayed(seconds: float, even: float, std: float = MOST_APART) -> Convention:
+    """Measurements that belong to the joints some seconds before their time, or before the even course of the times."""
+    fixed = {"kind": DELAY, "seconds": seconds, "even": even, "std": std}
+    return Convention(Place({"body": "instrument"}, fixed))
+
+
+def conventions(recording: StaticRecording, *, in_seconds: bool = False) -> Iterator[Convention]:
+    """Everything that is tried, likeliest first.
+
+    Args:
+        in_seconds: True where delays in seconds are tried too: rows beside their joints are one of so many steps, and
+            in seconds it holds at another rate and for an arm at rest.
+    """
     prismatic = recording.situation.chain.prismatic
     joints = range(1, len(prismatic) + 1)
     for j in joints:
@@ -139,7 +185,7 @@ def conventions(recording: StaticRecording) -> Iterator[Convention]:
     if recording.mode != "targets":
         for factor in _LENGTH_FACTORS:
             yield Convention(Place({"body": "instrument"}, {"kind": LENGTH_UNIT, "factor": factor}))
-        for rows in _ROWS_APART:
+        for rows in () if in_seconds else _ROWS_APART:
             yield Convention(Place({"body": "instrument"}, {"kind": LATE, "rows": rows}))
     if recording.mode == "points" and recording.points is not None:
         yield Convention(Place({"body": "instrument"}, {"kind": MIRROR}))

@@ -23,6 +23,7 @@ from app.diagnosis.wording import note
 from app.errors import CellValueError, InputError
 from app.kinematics import RobotModel
 from app.recordings import Table
+from app.steps import done
 
 STRETCHES = "stretches"
 
@@ -106,6 +107,7 @@ def read_log(table: Table, robot: RobotModel) -> Log:
     effort = effort_of(table, n, as_recorded, _unordered(commanded, order), notes)
     y = effort.y if straight else effort.y[:, order]
     rows = np.asarray(table.rows)
+    done(0.5)
     total = len(t)
     good = np.isfinite(t) & np.isfinite(q).all(axis=1) & np.isfinite(y).all(axis=1)
     if qd is not None and good.any() and np.mean(np.isfinite(qd[good])) < 0.5:
@@ -131,6 +133,7 @@ def read_log(table: Table, robot: RobotModel) -> Log:
     step = float(np.median(np.diff(t)))
     qd = check_units(t, q, qd, rows, table, robot, notes)
     check_moves(q, y, table, notes)
+    done(0.8)
     spiked, y = torque_spikes(y)
     if spiked.any():
         notes.append(note("torque_spikes", count=int(spiked.sum())))

@@ -7,6 +7,7 @@ from typing import Literal
 
 import numpy as np
 
+from app.diagnosis.models.kinematic.in_motion import speeds
 from app.diagnosis.models.kinematic.situation import Situation, situation_for
 from app.kinematics import RobotModel
 
@@ -130,6 +131,7 @@ class StaticRecording:
             moment=new.moment,
             approach=new.approach,
             move=new.move,
+            speed=speeds(old.time, q, self.session) if old.speed.any() else old.speed,
         )
         return replace(self, situation=situation)
 
@@ -140,17 +142,18 @@ class StaticRecording:
 
     def subset(self, keep: np.ndarray) -> StaticRecording:
         """The rows where `keep` (m,) is True; numbers of sessions, poses and targets stay what they were."""
-        changed = {f.name: _cut(getattr(self, f.name), keep) for f in fields(self) if f.name in _PER_ROW}
+        changed = {f.name: cut(getattr(self, f.name), keep) for f in fields(self) if f.name in _PER_ROW}
         names = [f.name for f in fields(Situation) if f.name in _PER_ROW_SITUATION]
-        situation = replace(self.situation, **{n: _cut(getattr(self.situation, n), keep) for n in names})
+        situation = replace(self.situation, **{n: cut(getattr(self.situation, n), keep) for n in names})
         return replace(self, situation=situation, **changed)
 
 
 _PER_ROW = {"rows", "points", "orientations", "lengths", "target", "session", "pose"}
 _PER_ROW_SITUATION = {
-    "q", "torque", "leaning", "moment", "approach", "move", "time", "temperature", "order", "payload",
+    "q", "torque", "leaning", "moment", "approach", "move", "speed", "time", "temperature", "order", "payload",
 }  # fmt: skip
 
 
-def _cut(array: np.ndarray | None, keep: np.ndarray) -> np.ndarray | None:
+def cut(array: np.ndarray | None, keep: np.ndarray) -> np.ndarray | None:
+    """Some rows of what may not be there."""
     return None if array is None else array[keep]

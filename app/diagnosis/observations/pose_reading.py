@@ -6,9 +6,10 @@ from dataclasses import replace
 
 import numpy as np
 
+from app.diagnosis.models.kinematic.in_motion import speeds
 from app.diagnosis.models.kinematic.situation import situation_for
 from app.diagnosis.observations.measured import distinct, length_resolution, touched, tracked, useless
-from app.diagnosis.observations.pose_data import StaticRecording
+from app.diagnosis.observations.pose_data import StaticRecording, cut
 from app.diagnosis.observations.sensed import sensed_torques
 from app.diagnosis.observations.suspicion import joint_notes, refuse_joints, refuse_measurements
 from app.diagnosis.observations.thinning import thinned
@@ -17,6 +18,7 @@ from app.diagnosis.wording import note
 from app.errors import InputError, TooFewPointsError
 from app.kinematics import RobotModel
 from app.recordings import Table
+from app.steps import done, part
 from app.units import from_deg, from_mm
 
 
@@ -34,7 +36,8 @@ def read_static(table: Table, robot: RobotModel) -> StaticRecording:
 
 
 def _read(table: Table, robot: RobotModel) -> StaticRecording:
-    q, q_rows = _joints(table, robot)
+    with part(0.0, 0.2):  # with the rows of the file, where nobody has asked for a column yet
+        q, q_rows = _joints(table, robot)
     notes: list[str] = []
     measured = touched(table, notes) if table.kind == "touch" else tracked(table, notes)
     refuse_joints(table, robot, q)
@@ -45,8 +48,13 @@ def _read(table: Table, robot: RobotModel) -> StaticRecording:
     time = _optional(table, "t")
     if time is not None and np.any(np.diff(time) < 0):
         notes.append(note("backwards"))
+    done(0.3)
     pose = _poses(table, q, session)
-    keep = distinct(q, measured, time, length_resolution(table, measured), notes)
+    done(0.45)
+    digits = length_resolution(table, measured)
+    done(0.55)
+    keep = distinct(q, measured, time, digits, notes)
+    done(0.7)
     for mask, text in useless(measured, session):
         if (mask & keep).any():
             notes.append(note(text, count=int((mask & keep).sum())))
@@ -55,18 +63,19 @@ def _read(table: Table, robot: RobotModel) -> StaticRecording:
     if keep.sum() < usable:
         notes.append(note("rows_chosen", count=int(keep.sum()), total=usable))
     torque = sensed_torques(table, robot, q, notes)
+    done(0.8)
     recording = StaticRecording(
         file=str(table.path),
         kind=str(table.kind),
         mode=measured.mode,
-        rows=q_rows,
-        points=measured.points,
-        orientations=measured.orientations,
-        lengths=measured.lengths,
-        target=np.zeros(m, int) if measured.target is None else measured.target,
+        rows=q_rows[keep],
+        points=cut(measured.points, keep),
+        orientations=cut(measured.orientations, keep),
+        lengths=cut(measured.lengths, keep),
+        target=(np.zeros(m, int) if measured.target is None else measured.target)[keep],
         target_names=measured.names,
-        session=session,
-        pose=pose,
+        session=session[keep],
+        pose=pose[keep],
         situation=situation_for(
             robot,
             q,
@@ -76,16 +85,18 @@ def _read(table: Table, robot: RobotModel) -> StaticRecording:
             payload_com=_vector(table, "payload_com_m", 3),
             declared_compliance=_vector(table, "compliance_rad_per_Nm", robot.joint_count),
             time=time,
+            speed=None if time is None else speeds(time, q, session),
             temperature=_temperature(table),
+            keep=keep,
             instrument=measured.mode,
             reflectors=1 if measured.points is None else measured.points.shape[1],
         ),
         stated_noise=_stated_noise(table),
         angle_resolution=_angle_resolution(table, robot),
-        length_resolution=length_resolution(table, measured),
+        length_resolution=digits,
         notes=tuple(notes),
     )
-    recording = renumbered(recording.subset(keep))
+    recording = renumbered(recording)
     unknowns = (
         6 + 3 * recording.reflectors if measured.mode != "targets" else 3 + 3 * len(recording.target_names)
     )

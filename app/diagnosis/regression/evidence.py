@@ -11,15 +11,17 @@ Source: Bayesian linear regression, MacKay, "Bayesian interpolation", Neural Com
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 
 import numpy as np
 
 from app.diagnosis.regression.groups import Group, Layout, Selection
 from app.diagnosis.regression.inside import ROUNDING, Inside
+from app.diagnosis.regression.instead import Instead
 from app.diagnosis.regression.solved import Beside, Factor, Posterior, Statistics
 from app.diagnosis.regression.triangular import inverse_of, lower_solved
 from app.diagnosis.regression.usual import density
+from app.diagnosis.regression.weighing import Weighing
 
 __all__ = ["Beside", "Evidence", "Factor", "Group", "Posterior", "Selection", "Statistics"]
 
@@ -28,7 +30,7 @@ __all__ = ["Beside", "Evidence", "Factor", "Group", "Posterior", "Selection", "S
 KEPT = 4
 
 
-class Evidence:
+class Evidence(Weighing):
     """Evidence of selections among groups.
 
     Args:
@@ -40,14 +42,16 @@ class Evidence:
     """
 
     def __init__(self, statistics: Statistics, groups: Sequence[Group], *, unit_noise: bool = False):
-        self.statistics = statistics
+        super().__init__(statistics, unit_noise=unit_noise)
         self.groups = list(groups)
-        self.unit_noise = unit_noise
         self.kept: set[int] = set()
         self.alike: set[int] = set()
         self._laid: Layout | None = None
         self._factors: dict[tuple, Factor] = {}
         self._factors_of: tuple[object, object] = (None, None)
+        self._beside_last: tuple[Factor, Beside] | None = None
+        self._inside_last: Inside | None = None
+        self._inside_of: tuple[object, object] = (None, None)
 
     def factor(self, selection: Mapping[int, float]) -> Factor:
         """A selection factorised; those asked last are kept as long as the statistics stand."""
@@ -81,12 +85,6 @@ class Evidence:
         groups = [self.groups[g].columns for g in selection]
         return np.concatenate(groups), np.repeat(list(selection.values()), [len(c) for c in groups])
 
-    def fit(self, residual: np.ndarray | float, total: float) -> np.ndarray | float:
-        """Log likelihood beyond that of a residual `total`."""
-        if self.unit_noise:
-            return 0.5 * (total - residual)
-        return -0.5 * self.statistics.dof * np.log(residual / total)
-
     def score(self, selection: Mapping[int, float]) -> float:
         """L(S) beyond that of the empty selection [nats]."""
         f = self.factor(selection)
@@ -97,60 +95,42 @@ class Evidence:
         return 1.0 if self.unit_noise else factor.residual / self.statistics.dof
 
     def gains(
-        self, selection: Mapping[int, float], candidates: Sequence[int], beside: Beside | None = None
+        self, selection: Mapping[int, float], candidates: Sequence[int]
     ) -> tuple[np.ndarray, np.ndarray]:
         """What each candidate would add to the evidence, penalty included, at its best width.
-
-        Args:
-            beside: what is left of every column beside the selection, where it is known already.
 
         Returns:
             gains (c,) [nats] and gammas (c,).
         """
-        layout, chosen = self._layout(), np.asarray(candidates, int)
-        beside = self._beside(self.factor(selection)) if beside is None else beside
+        return self.gains_beside(self.beside(self.factor(selection)), candidates)
+
+    def gains_beside(self, beside: Beside, candidates: Sequence[int]) -> tuple[np.ndarray, np.ndarray]:
+        """The same where what is left of every column is known already."""
+        layout, chosen = self.layout(), np.asarray(candidates, int)
         gains, gammas, kinds = np.empty(len(chosen)), np.empty(len(chosen)), layout.kind[chosen]
         for kind in np.unique(kinds).tolist():
             which = np.flatnonzero(kinds == kind)
             some = chosen[which]
             ids, rows = layout.ids[kind], layout.row[some]
-            if beside.back is None:
-                block = self._blocks(beside, ids[rows])
-            else:
-                if kind not in beside.shared:  # beside the whole selection, for all groups at once
-                    beside.shared[kind] = self._blocks(beside, ids)
+            block = self.blocks(beside, ids[rows])
+            if beside.back is not None:
                 back = beside.back[:, ids[rows]].transpose(1, 0, 2)
-                block = beside.shared[kind][rows] + np.swapaxes(back, 1, 2) @ back
+                block = block + np.swapaxes(back, 1, 2) @ back
             gains[which], gammas[which] = self._batch(
                 beside, ids[rows], block, layout.positive[some], layout.cap[some], layout.penalty[some],
                 layout.widths[kind],
             )  # fmt: skip
         return gains, gammas
 
-    def without_each(self, selection: Mapping[int, float]) -> Callable[[int], Beside]:
-        """What is left of every column beside a selection without one of its groups, for any of them.
-
-        With C the inverse of M, u = G C_B and S = C_BB^-1, leaving out the block B adds u S u' to what is left of the
-        Gram matrix and u S w_B to what is left of X'y.
-        """
-        factor, inside, s = self.factor(selection), Inside(self, selection), self.statistics
-        now = self._beside(factor)
-        over = s.matrix[:, factor.columns] @ inside.inverse
-        shared: dict[int, np.ndarray] = {}
-
-        def without(g: int) -> Beside:
-            block, weights, residual = inside.block(g)
-            own = over[:, inside.at[g]]
-            back = np.linalg.cholesky(0.5 * (block + block.T)).T @ own.T
-            return Beside(residual, now.right + own @ (block @ weights), now.cross, back, shared)
-
-        return without
+    def instead(self, selection: Mapping[int, float]) -> Instead:
+        """What could stand in the place of each group of a selection."""
+        return Instead(self, selection)
 
     def joint_gains(
         self, selection: Mapping[int, float], together: Sequence[tuple[int, ...]]
     ) -> tuple[np.ndarray, np.ndarray]:
         """The same for several groups at once, which share one width."""
-        beside = self._beside(self.factor(selection))
+        beside = self.beside(self.factor(selection))
         gains, gammas = np.empty(len(together)), np.empty(len(together))
         kinds: dict[tuple[int, int], list[int]] = {}  # of one size and one grid of widths go together
         columns = [np.concatenate([self.groups[g].columns for g in some]) for some in together]
@@ -159,28 +139,32 @@ class Evidence:
         for members in kinds.values():
             ids = np.array([columns[i] for i in members])
             gains[members], gammas[members] = self._batch(
-                beside, ids, self._blocks(beside, ids), np.zeros(len(members), bool),
+                beside, ids, self.blocks(beside, ids), np.zeros(len(members), bool),
                 np.array([min(self.groups[g].cap for g in together[i]) for i in members]),
                 np.array([sum(self.groups[g].penalty for g in together[i]) for i in members]),
                 self.groups[together[members[0]][0]].widths,
             )  # fmt: skip
         return gains, gammas
 
-    def _layout(self) -> Layout:
+    def layout(self) -> Layout:
         """All groups sorted by size and widths; made anew when groups joined."""
         if self._laid is None or self._laid.count != len(self.groups):
             self._laid = Layout.of(self.groups)
         return self._laid
 
-    def _beside(self, factor: Factor) -> Beside:
+    def beside(self, factor: Factor) -> Beside:
         """What is left of every column beside a selection."""
+        if self._beside_last is not None and self._beside_last[0] is factor:
+            return self._beside_last[1]
         s = self.statistics
         if not len(factor.columns):
             return Beside(factor.residual, s.right, np.zeros((0, len(s.right))))
         cross = lower_solved(factor.lower, s.matrix[factor.columns])
-        return Beside(factor.residual, s.right - factor.solved @ cross, cross)
+        found = Beside(factor.residual, s.right - factor.solved @ cross, cross)
+        self._beside_last = factor, found
+        return found
 
-    def _blocks(self, beside: Beside, ids: np.ndarray) -> np.ndarray:
+    def blocks(self, beside: Beside, ids: np.ndarray) -> np.ndarray:
         """(b, d, d) Gram matrices of groups with columns ids (b, d), the selection out."""
         if ids.shape[1] == 1:
             flat = ids[:, 0]
@@ -197,51 +181,10 @@ class Evidence:
     ) -> tuple[np.ndarray, np.ndarray]:
         """Gains and gammas of groups with columns ids (b, d) and Gram matrices block (b, d, d)."""
         own = beside.right[ids]
-        if ids.shape[1] == 1:
-            values, squares = block[:, 0], np.where((positive & (own[:, 0] < 0))[:, None], 0.0, own**2)
-        else:
-            values, vectors = np.linalg.eigh(block)
-            squares = (own[:, None, :] @ vectors)[:, 0] ** 2
-        return self.best_width(np.maximum(values, 0.0), squares, beside.residual, cap, penalty, widths)
-
-    def best_width(self, values, squares, residual: float, cap, penalty, widths: np.ndarray, expected=None):
-        """Gains and gammas of a batch in eigenbases: values, squares (b, d); cap, penalty (b,); expected None or (w,),
-        the log density of each width."""
-        gamma = widths[:, None, None]
-        stretch = 1.0 + gamma * values
-        taken = squares * gamma / stretch
-        if values.shape[1] == 1:
-            taken, logs = taken[:, :, 0], np.log(stretch[:, :, 0])
-        else:
-            taken, logs = taken.sum(axis=2), np.log(stretch).sum(axis=2)
-        left = np.maximum(residual - taken, 1e-9 * residual)  # (w, b)
-        gain = self.fit(left, residual) - 0.5 * logs
-        # gamma counts in variances of the noise that is left once the group is in
-        variance = 1.0 if self.unit_noise else left / self.statistics.dof
-        gain = np.where(widths[:, None] * variance > np.asarray(cap) ** 2, -np.inf, gain)
-        if expected is not None:
-            gain = gain + expected[:, None]
-        gain[0] = np.where(np.isneginf(gain).all(axis=0), -1e9, gain[0])
-        best = gain.argmax(axis=0)
-        return gain[best, np.arange(len(best))] - penalty, widths[best]
-
-    def most(self, gram: np.ndarray, right: np.ndarray, residual: float, widths: np.ndarray) -> np.ndarray:
-        """(...,) what groups could bring at most, whatever their width and its price.
-
-        Args:
-            gram: (..., d, d) of what is left of their columns.
-            right: (..., d) of those and what is left of the response.
-        """
-        wide, d = 1.0 / float(widths[-1]), gram.shape[-1]
-        if d == 1:
-            taken = right[..., 0] ** 2 / (np.maximum(gram[..., 0, 0], 0.0) + wide)
-        else:
-            rounding = wide + 1e-12 * np.trace(gram, axis1=-2, axis2=-1)[..., None, None]
-            taken = np.sum(
-                right * np.linalg.solve(gram + rounding * np.eye(d), right[..., None])[..., 0], axis=-1
-            )
-        left = residual - taken
-        return np.asarray(self.fit(np.maximum(left, 1e-9 * residual), residual))
+        if ids.shape[1] > 1:
+            return self.best_width_of_blocks(block, own, beside.residual, cap, penalty, widths)
+        squares = np.where((positive & (own[:, 0] < 0))[:, None], 0.0, own**2)
+        return self.best_width(np.maximum(block[:, 0], 0.0), squares, beside.residual, cap, penalty, widths)
 
     def losses(self, selection: Mapping[int, float]) -> dict[int, float]:
         """Evidence lost without each group of a selection [nats], its penalty counted.
@@ -249,7 +192,16 @@ class Evidence:
         With M = G + Gamma^-1, C its inverse and w the weights, taking out the block B adds w_B' C_BB^-1 w_B to the
         residual and takes ln |C_BB^-1| + ln |Gamma_B| from the log determinant.
         """
-        return Inside(self, selection).losses() if selection else {}
+        return self.inside(selection).losses() if selection else {}
+
+    def inside(self, selection: Mapping[int, float]) -> Inside:
+        """The groups of a selection, each beside the others: carried on from the last one where few have changed."""
+        last, of = self._inside_last, (self.statistics.matrix, self.statistics.right)
+        same = self._inside_of[0] is of[0] and self._inside_of[1] is of[1]
+        if last is None or not same or not self.unit_noise or not last.carried_to(selection):
+            last = self._inside_last = Inside(self, selection)
+            self._inside_of = of
+        return last
 
     def tuned(
         self, selection: Mapping[int, float], sweeps: int = 2, bound: Collection[int] = ()
@@ -263,8 +215,10 @@ class Evidence:
         for _ in range(sweeps):
             if not now:
                 break
-            inside = Inside(self, now)
+            inside, before = self.inside(now), dict(now)
             for g in list(now):
+                if g in stays and self.groups[g].widths.tolist() == [now[g]]:
+                    continue
                 gain, gamma = inside.best_width(g, self._expected(g, now))
                 if gain > 0 or g in stays:
                     now[g] = gamma
@@ -272,6 +226,8 @@ class Evidence:
                 else:
                     del now[g]
                     inside.drop(g)
+            if now == before:
+                break
         return now
 
     def _expected(self, g: int, now: Mapping[int, float]) -> np.ndarray | None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
@@ -77,11 +77,9 @@ class Beside:
         right: (p,) what is left of X'y.
         cross: (a, p) L^-1 G: with its square taken off, what is left of the Gram matrix.
         back: (d, p) where a group was left out again: its square comes back.
-        shared: blocks of the Gram matrix before it does, by kind of group.
     """
 
     residual: float
     right: np.ndarray
     cross: np.ndarray
     back: np.ndarray | None = None
-    shared: dict[int, np.ndarray] = field(default_factory=dict)

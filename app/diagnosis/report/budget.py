@@ -8,7 +8,7 @@ and these words from here.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -25,7 +25,8 @@ SMALL_AMOUNT = 0.01
 CHANCE = 0.05
 #: Shares below this are said to be below it.
 LEAST_SHARE = 0.01
-#: The family of what was fitted without a name, as `result.STATIC_FAMILIES` and `MOTION_FAMILIES` call it.
+#: A family that lowers the error by less than this share of it adds nothing to those before it.
+NOTHING = 1e-3
 
 
 @dataclass(frozen=True)
@@ -101,6 +102,24 @@ def budget(diagnosis: Diagnosis) -> Budget:
 def shown(of: Budget) -> tuple[Step, ...]:
     """Families worth a line: those that take something away, would be missed or hold findings."""
     return tuple(s for s in of.steps if s.amount > 0 or s.share >= LEAST_SHARE / 2 or s.members or s.small)
+
+
+def shared(step: Step, of: Budget) -> bool:
+    """True for a family that takes nothing away although it would be missed: those before it had explained its part.
+
+    Its amount is what it adds to them, its share what comes back where the others stay as they are.
+    """
+    return step.amount < NOTHING * of.total and step.share >= LEAST_SHARE / 2
+
+
+def takes_away(step: Step, of: Budget) -> str:
+    """A family's amount in words; a dash where it is `shared`, since "0 mm" would say that it is not needed."""
+    return "–" if shared(step, of) else measure(step.amount, of.unit)
+
+
+def shared_note(listed: Sequence[Step], of: Budget, language: str = FALLBACK) -> str:
+    """What the dash means; "" where none of those that are listed has one."""
+    return WORDS.text("budget.shared", language) if any(shared(s, of) for s in listed) else ""
 
 
 def law_share(finding: Finding, diagnosis: Diagnosis) -> float:

@@ -52,7 +52,8 @@ summary{cursor:default;break-after:avoid}.family>summary{display:flex;gap:12px;a
 .family>summary .name{font-weight:650;font-size:11.4pt}.family>summary .name::first-letter{text-transform:uppercase}
 .family .amount{font-weight:600;font-variant-numeric:tabular-nums}.family .count{margin-left:auto;font-size:8.8pt}
 .laws td{vertical-align:top}.laws tr.top td{border-bottom:0;padding-bottom:0}.laws tbody{break-inside:avoid}
-.laws td.no{color:var(--soft);width:20px}.laws .where{color:var(--soft)}.laws td:nth-child(2){width:34%}
+.laws th{white-space:nowrap}.laws td.no{color:var(--soft);width:20px}
+.laws .where{color:var(--soft)}.laws td:nth-child(2){width:34%}
 .laws .say{font-size:9pt}.laws td.n{white-space:nowrap;font-size:8.8pt}.laws .values{white-space:nowrap;font-size:9pt}
 .glossary{display:grid;grid-template-columns:max-content 1fr;gap:2px 14px;margin:0}
 .law{font-size:8.8pt;color:var(--soft);
@@ -73,7 +74,18 @@ code{font-family:"DejaVu Sans Mono",Consolas,monospace;font-size:8.6pt;overflow-
 @media screen{body{margin:8mm auto;box-shadow:0 1px 8px rgba(28,39,48,.18)}}
 @media print{html{background:#fff}body{padding:0;max-width:none;margin:0}}
 @page{size:A4;margin:15mm 16mm 16mm}
-@media (max-width:640px){.grid2{grid-template-columns:1fr}body{padding:16px}}
+@media (max-width:640px){.grid2{grid-template-columns:minmax(0,1fr)}body{padding:16px;margin:0}
+.glossary{grid-template-columns:minmax(0,1fr)}.glossary dt{font-weight:600;margin-top:4px}
+table:not(.laws){display:block;overflow-x:auto}table:not(.laws) td:first-child{white-space:nowrap}
+/* A wide picture keeps its size: its words could not be read else. */
+section>figure{overflow-x:auto}section>figure>svg{min-width:600px}
+/* A law is a card: what its column says stands before each value. */
+.laws,.laws tbody,.laws tr,.laws td{display:block}.laws thead,.laws td:empty{display:none}
+.laws tr.top{display:grid;grid-template-columns:20px minmax(0,1fr);padding-top:4px}
+.laws tr.top td{grid-column:2;padding:1px 0;width:auto;text-align:left;white-space:normal}
+.laws tr.top td.no{grid-column:1;grid-row:1}.laws tr.top br{display:none}
+.laws td[data-head]::before{content:attr(data-head)": ";color:var(--soft)}
+.laws tr:not(.top) td{padding-left:20px;width:auto}}
 """
     + PICTURES
 )

@@ -17,7 +17,9 @@ from app.diagnosis.report.budget import (
     family_name,
     law_share,
     percent,
+    shared_note,
     shown,
+    takes_away,
     unexplained_sentence,
 )
 from app.diagnosis.report.wording import (
@@ -68,7 +70,7 @@ def as_text(
     laws: set[str] = set()
     for step in of.steps:
         if step.members or step.small:
-            lines += ["", _family(step, of.unit)]
+            lines += ["", _family(step, of)]
             lines += [line for k in step.members for line in _finding(d, k, laws)]
             if step.small:
                 lines += _small(d, step.small)
@@ -113,18 +115,18 @@ def _families(of: Budget) -> list[str]:
         lines.append(
             row(
                 family_name(s.family),
-                measure(s.amount, of.unit),
+                takes_away(s, of),
                 measure(s.left, of.unit),
                 percent(s.share),
                 bar,
             )
         )
-    return [line.rstrip() for line in lines]
+    return [line.rstrip() for line in lines] + _wrapped(f"  {shared_note(shown(of), of)}", indent=2)
 
 
-def _family(step: Step, unit: str) -> str:
+def _family(step: Step, of: Budget) -> str:
     name = family_name(step.family)
-    return f"{name[:1].upper()}{name[1:]} · {measure(step.amount, unit)} · {percent(step.share)}"
+    return f"{name[:1].upper()}{name[1:]} · {takes_away(step, of)} · {percent(step.share)}"
 
 
 def _small(d: Diagnosis, small: Sequence[int]) -> list[str]:

@@ -15,6 +15,11 @@ from app.units import deg, mm
 #: What is in the simulation while a given model is judged -> the key of its words.
 _STEPS = {BARE: "judged.bare", WITH: "judged.with"}
 _NEARLY_ALL = 0.99
+#: What a place may be made of and has words of its own; a model from elsewhere may bring more, which stand as they are.
+PLACES = frozenset(
+    {"body", "reflector", "joint", "link", "axis", "source_joint"}
+    | {"driver", "order", "kind", "from_row", "from_s", "to_s"}
+)
 
 
 def effect_title(key: str, language: str = FALLBACK) -> str:
@@ -71,31 +76,25 @@ def place(where: Mapping[str, Any], language: str = FALLBACK) -> str:
     elif where.get("link") is not None:
         parts.append(said("link", n=where["link"]))
     if where.get("source_joint") is not None:
-        parts.append(said("source", n=where["source_joint"]))
+        # Two joints that are changed over move nothing in each other.
+        parts.append(said("source" if where.get("kind") is None else "with_joint", n=where["source_joint"]))
     if where.get("driver") is not None:
         key = f"driver.{where['driver']}"
         driver = WORDS.text(key, language) if WORDS.has(key) else str(where["driver"]).replace("_", " ")
         # Without a joint to belong to, "its" has nothing to point at.
         parts.append(said("driven", driver=driver if where.get("joint") else driver.removeprefix("its ")))
+    if where.get("order") is not None:
+        parts.append(said("order", n=where["order"]))
+    if where.get("kind") is not None:
+        kind = f"kind.{where['kind']}"
+        parts.append(WORDS.text(kind, language) if WORDS.has(kind) else str(where["kind"]).replace("_", " "))
     if where.get("from_row") is not None:
         parts.append(said("from_row", n=where["from_row"]))
     if where.get("from_s") is not None and where.get("to_s") is not None:
         parts.append(said("window", start=f"{where['from_s']:.2f}", end=f"{where['to_s']:.2f}"))
     elif where.get("from_s") is not None:
         parts.append(said("since", start=f"{where['from_s']:.2f}"))
-    known = {
-        "body",
-        "reflector",
-        "joint",
-        "link",
-        "axis",
-        "source_joint",
-        "driver",
-        "from_row",
-        "from_s",
-        "to_s",
-    }
-    parts += [f"{key.replace('_', ' ')} {value}" for key, value in where.items() if key not in known]
+    parts += [f"{key.replace('_', ' ')} {value}" for key, value in where.items() if key not in PLACES]
     return WORDS.text("list.between", language).join(parts) or said("nowhere")
 
 

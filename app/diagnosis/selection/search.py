@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
@@ -12,7 +12,8 @@ from app.diagnosis.regression.groups import Selection
 from app.diagnosis.thresholds.evidence import BETTER, DROP, EXCHANGES, PAIR_COSINE, TAKE
 
 if TYPE_CHECKING:
-    from app.diagnosis.regression.evidence import Beside, Evidence
+    from app.diagnosis.regression.evidence import Evidence
+    from app.diagnosis.regression.instead import Instead
 
 
 @dataclass(frozen=True)
@@ -32,8 +33,12 @@ class Offer:
     changes: bool = True
 
 
-#: Groups that may be taken beside a selection.
-Opens = Callable[[Selection], Sequence[int]]
+class Opens(Protocol):
+    """Groups that may be taken beside a selection, of all or of some."""
+
+    def __call__(self, selection: Selection, among: Sequence[int] | None = None, /) -> Sequence[int]: ...
+
+
 #: Best offers (one a kind) given a selection.
 Scan = Callable[[Selection], Iterable[Offer]]
 #: Groups of a selection that another of its groups needs.
@@ -43,12 +48,21 @@ Bound = Callable[[Selection], Collection[int]]
 def open_among(evidence: Evidence, allowed: Sequence[int]) -> Opens:
     """Those of some groups that are not in and not excluded by one that is."""
 
-    def opens(selection: Selection) -> list[int]:
+    every = frozenset(allowed)
+
+    def opens(selection: Selection, among: Sequence[int] | None = None) -> list[int]:
         groups = evidence.groups
         taken = {groups[g].exclusive for g in selection} - {""}
-        return [g for g in allowed if g not in selection and groups[g].exclusive not in taken]
+        asked = allowed if among is None else [g for g in among if g in every]
+        return [g for g in asked if g not in selection and groups[g].exclusive not in taken]
 
     return opens
+
+
+def _offered(allowed: Sequence[int], gains: np.ndarray, gammas: np.ndarray) -> Offer:
+    """The best of some groups."""
+    k = int(gains.argmax())
+    return Offer(float(gains[k]), float(gammas[k]), lambda: allowed[k], False)
 
 
 @dataclass(eq=False)
@@ -116,18 +130,19 @@ class Search:
         """Every width at its best; a group without a width falls out, unless it is bound."""
         return self.evidence.tuned(selection, sweeps, self.bound(selection))
 
-    def _best(self, selection: Selection, step: int = 0, beside: Beside | None = None) -> Offer | None:
+    def _best(self, selection: Selection, step: int = 0) -> Offer | None:
         """The best group that could be added."""
-        allowed = list(self.opens(selection))
-        best: Offer | None = None
-        if allowed:
-            gains, gammas = self.evidence.gains(selection, allowed, beside)
-            k = int(gains.argmax())
-            best = Offer(float(gains[k]), float(gammas[k]), lambda: allowed[k], False)
-        if self.scan is not None and (best is None or best.gain < self.dear or step % 4 == 0):
-            for offer in self.scan(selection):
-                if best is None or offer.gain > max(best.gain, self.take):
-                    best = offer
+        allowed = self.opens(selection)
+        best = _offered(allowed, *self.evidence.gains(selection, allowed)) if allowed else None
+        waits = best is not None and best.gain >= self.dear and step % 4 != 0
+        return best if self.scan is None or waits else self._scanned(selection, best)
+
+    def _scanned(self, selection: Selection, best: Offer | None) -> Offer | None:
+        """The best of what is there and of what a scan offers."""
+        assert self.scan is not None
+        for offer in self.scan(selection):
+            if best is None or offer.gain > max(best.gain, self.take):
+                best = offer
         return best
 
     def _with(self, selection: Selection, offer: Offer) -> Selection:
@@ -156,10 +171,14 @@ class Search:
         for _ in range(EXCHANGES - 1):
             losses, bound = self.evidence.losses(now), self.evidence.kept.union(self.bound(now))
             best_gain, best = 2.0 * BETTER, None
-            beside = self.evidence.without_each(now) if now else None
+            if not now:
+                break
+            instead = self.evidence.instead(now)
             for g in now:
+                if g in bound:
+                    continue
                 rest = {k: v for k, v in now.items() if k != g}
-                other = self._best_instead(rest, g, beside(g)) if beside and g not in bound else None
+                other = self._best_instead(rest, g, instead, losses[g] + best_gain)
                 if other is not None and other.gain - losses[g] > best_gain:
                     best_gain, best = other.gain - losses[g], (rest, other)
             if best is None:
@@ -167,10 +186,13 @@ class Search:
             now = self.pruned(self.tuned(self._with(*best)))
         return now
 
-    def _best_instead(self, rest: Selection, g: int, beside: Beside) -> Offer | None:
-        """The best group beside `rest` that is not `g`."""
-        others = lambda selection: [k for k in self.opens(selection) if k != g]  # noqa: E731
-        return replace(self, opens=others, scan=self.scan if self.eager else None)._best(rest, 0, beside)
+    def _best_instead(self, rest: Selection, g: int, instead: Instead, least: float) -> Offer | None:
+        """The best group beside `rest` that is not `g`, among those that may bring more than `least` nats."""
+        may, best = sorted(instead.may(g, least) - {g}), None
+        allowed = self.opens(rest, may) if may else ()
+        if allowed:
+            best = _offered(allowed, *instead.gains(g, allowed))
+        return self._scanned(rest, best) if self.eager and self.scan is not None else best
 
     def paired(self, selection: Selection) -> Selection:
         """Two groups at once where either alone earns nothing: one hides while the other is still in the residual.

@@ -13,3 +13,6 @@ LEAST = 0.05
 
 #: Part of the held-out error that may be left: what is no lag stays.
 FALLS = 0.7
+
+#: rad or m: a command, or a joint, that moves by less tells no time.
+MOVED = 1e-3

@@ -42,3 +42,21 @@ WAY_OUT = 4.0 * np.pi
 
 #: m: no instrument of this kind measures farther.
 FARTHEST = 100.0
+
+#: s between rows, in the mean: a person or a program that waits for an arm to stop and settle takes longer.
+IN_MOTION = 0.5
+
+#: Part of the usual step: rows that are stamped closer have one moment.
+AT_ONCE = 0.1
+
+#: Share of the rows that are stamped together with the one before, from which on the stamps are a buffer's.
+BURSTS = 0.3
+
+#: s by which measurements and joints of two devices are apart at most: half a second of buffers and filters.
+MOST_APART = 0.5
+
+#: s between the delays that are tried first: half of it at 0.5 rad/s and 1 m is 6 mm, from where the best is found.
+DELAY_STEP = 0.025
+
+#: s: delays that differ by less are one; at 1 m/s that is a micrometre.
+DELAY_SURE = 1e-6

@@ -46,3 +46,7 @@ LOAD_SURE = 3.0
 
 #: Standard deviations by which a load on a link must be above nothing: else the motion shows a moment and no mass.
 WEIGHED = 3.0
+
+#: Mean square of what is left, over that of the noise, beyond which something is missing that a load on a link whose
+#: weight the log leaves open may only stand in for: half of what is left is then no noise.
+INCOMPLETE = 2.0

@@ -10,3 +10,6 @@ WORTH = 0.002
 
 #: Variances of masses, friction and rotors, over those of their nominal widths, that come next to least squares.
 WIDE = 1e4
+
+#: The same, of masses and friction that are taken for near the description the less the log tells of them.
+CLOSER = (100.0, 1.0, 0.01)

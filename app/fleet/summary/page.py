@@ -51,13 +51,18 @@ class Summary:
     reasons: Counter[str] = field(default_factory=Counter)
 
 
-def summarised(rows: Iterable[Row]) -> Summary:
-    """The summary of a results file's rows."""
+def summarised(rows: Iterable[Row], run: int = 0) -> Summary:
+    """The summary of a results file's rows.
+
+    Args:
+        rows: all of them.
+        run: number of the last run, which may have read nothing; 0 takes that of the newest row.
+    """
     found: list[Seen] = []
     errors: list[tuple[str, str]] = []
     reasons: Counter[str] = Counter()
     arms: set[str] = set()
-    files = run = 0
+    files = 0
     for row in rows:
         files, run = files + 1, max(run, row.run)
         arms |= {row.arm} - {""}

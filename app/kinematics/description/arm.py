@@ -135,11 +135,6 @@ def _listed(tree: LinkTree, links: list[str]) -> str:
     return ", ".join(shown) + (f" and {more} more" if more else "")
 
 
-def chains_of(tree: LinkTree) -> list[str]:
-    """Every arm there is to choose, as BASE..TIP."""
-    return [f"{tree.root}..{default_flange(tree, link)}" for link in _ends(tree, _gripper_joints(tree))]
-
-
 def _ends(tree: LinkTree, grippers: set[str]) -> dict[str, list[JointElement]]:
     """The last moved link of every branch, with the arm joints that lead to it, in the file's order."""
     found: dict[str, list[JointElement]] = {}

@@ -12,6 +12,7 @@ from app.recordings.columns import TEXT, parse_column
 from app.recordings.delimited.dialect import Dialect
 from app.recordings.delimited.rows import checked_rows
 from app.recordings.delimited.source import Source
+from app.steps import done
 
 _LARGE = 64_000_000  # bytes: beyond, cells kept as text would take several times the file
 
@@ -55,8 +56,11 @@ class Body:
         frames: list[pl.DataFrame] = []
         numbers: list[np.ndarray] = []
         given = (self._source, self._offset, self._header_row, len(self._names), self._dialect)
+        taken, size = 0, max(self._source.size() - self._offset, 1)
         for rows, piece in checked_rows(*given):
             frame = self._parsed(piece, columns, typed)
+            taken += len(piece)
+            done(taken / size)
             frames.append(frame)
             numbers.append(rows[: len(frame)])
         return pl.concat(frames), np.concatenate(numbers)

@@ -74,6 +74,13 @@ def _check_text(piece: bytes, path: Path, number: int) -> None:
         raise FileFormatError("not UTF-8 text", file=path, row=row, expected="UTF-8") from None
 
 
+def mostly_empty(path: Path, row: int) -> FileFormatError:
+    """What is said of a file with more lines without a row than rows, from this row on."""
+    return FileFormatError(
+        f"over {MOST_EMPTY} lines that are empty or remarks", file=path, row=row, expected="one row a line"
+    )
+
+
 def checked_rows(
     source: Source, offset: int, header_row: int, width: int, dialect: Dialect
 ) -> Iterator[tuple[np.ndarray, bytes]]:
@@ -89,12 +96,7 @@ def checked_rows(
             empty += number - len(rows)
             count += len(rows)
             if empty > MOST_EMPTY and empty > count:
-                raise FileFormatError(
-                    f"over {MOST_EMPTY} lines that are empty or remarks",
-                    file=path,
-                    row=first,
-                    expected="one row a line",
-                )
+                raise mostly_empty(path, first)
             if len(rows):
                 _check_width(kept, rows, width, dialect, path)
                 yield rows, kept

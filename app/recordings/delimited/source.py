@@ -9,7 +9,7 @@ from pathlib import Path
 
 from app.errors import FileFormatError
 
-CHUNK = 1 << 24  # bytes read at a time
+CHUNK = 1 << 22  # bytes read at a time: after each one somebody may hear how far it is
 _CONVERTED = 300_000_000  # bytes that are converted in memory: other codes, other line ends
 _UTF16 = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
 

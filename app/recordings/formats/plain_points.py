@@ -8,6 +8,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from app.errors import FileFormatError
+from app.recordings.list_text import read_text
 from app.recordings.options import ReadOptions
 from app.recordings.point_lists import (
     as_asked,
@@ -16,7 +17,6 @@ from app.recordings.point_lists import (
     number,
     own_header,
     point_table,
-    read_text,
     split,
     unit_of,
     unit_said,

@@ -18,8 +18,9 @@ import polars as pl
 from app.errors import CellValueError, FileFormatError, UnitError
 from app.geometry.rotation import quaternion_from_rotation
 from app.recordings.delimited.header import add_key
+from app.recordings.list_text import read_text
 from app.recordings.options import ReadOptions
-from app.recordings.point_lists import UNITS, read_text
+from app.recordings.point_lists import UNITS
 from app.recordings.table import Table
 from app.units import MM_PER_INCH, mm
 

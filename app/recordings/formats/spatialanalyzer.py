@@ -11,6 +11,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from app.errors import FileFormatError
+from app.recordings.list_text import read_text
 from app.recordings.options import ReadOptions
 from app.recordings.point_lists import (
     as_asked,
@@ -18,7 +19,6 @@ from app.recordings.point_lists import (
     is_number,
     number,
     point_table,
-    read_text,
     split,
     unit_said,
 )

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from app.calibration.base.frame import in_parent
 from app.estimation import HALF
 from app.panel import markup as html
 from app.screens._base.run import Run
@@ -36,7 +37,10 @@ def result(context: Context, run: Run) -> str:
     t, relation = context.t, run.relation
     if relation is None:
         return ""
-    found = list(relation.warnings) + [w for b in run.bases for w in b.warnings]
+    found = [(w, w.said(context.language)) for w in relation.warnings]
+    for number, base in enumerate(run.bases, 1):
+        robot = t("base.robot_number", number=number)
+        found += [(w, t("base.of_robot", robot=robot, words=w.said(context.language))) for w in base.warnings]
     severe = relation.T_base1_base2 is None
     colour = "red" if severe else "yellow" if found else "green"
     sentence = (
@@ -46,7 +50,7 @@ def result(context: Context, run: Run) -> str:
     if relation.T_base1_base2 is not None and (run.exam is None or run.exam.free):
         truth = run.cell.T_base1_base2
         gap = relation.T_base1_base2.inverse() @ truth
-        half = HALF * np.sqrt(np.diag(relation.covariance))
+        half = HALF * np.sqrt(np.diag(in_parent(relation.T_base1_base2, relation.covariance)))
         position, true = mm(relation.T_base1_base2.position), mm(truth.position)
         rows = [
             (axis, f"{position[k]:.3f}", f"± {mm(half[k]):.3f}", f"{true[k]:.3f}")
@@ -62,7 +66,7 @@ def result(context: Context, run: Run) -> str:
             testid="base-off",
         )
     elif relation.T_base1_base2 is not None:  # an exercise: its truth is told at its end
-        half = HALF * np.sqrt(np.diag(relation.covariance))
+        half = HALF * np.sqrt(np.diag(in_parent(relation.T_base1_base2, relation.covariance)))
         rows = [
             (axis, f"{mm(relation.T_base1_base2.position[k]):.3f}", f"± {mm(half[k]):.3f}")
             for k, axis in enumerate("XYZ")
@@ -80,11 +84,13 @@ def result(context: Context, run: Run) -> str:
         for a in b.arcs
     ]
     out += html.table(
-        arcs, head=(t("base.axis"), t("base.arc"), "r mm", "rms mm", "± 95%"), testid="base-arcs"
+        arcs,
+        head=(t("base.axis"), t("base.arc"), t("base.radius"), t("base.rms"), "± 95%"),
+        testid="base-arcs",
     )
     out += (
         html.notes(
-            [("red" if w.severe else "yellow", w.said(context.language)) for w in found],
+            [("red" if w.severe else "yellow", words) for w, words in found],
             testid="base-warnings",
         )
         if found

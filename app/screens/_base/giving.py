@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import msgspec
 
-from app.calibration.base.page import base_page
 from app.calibration.base.report import base_json
+from app.calibration.report import two_robots_report
 from app.screens._base.run import Run
 
 if TYPE_CHECKING:
@@ -23,12 +23,14 @@ def send_relation(context: Context, run: Run) -> None:
 
 def send_page(context: Context, run: Run) -> None:
     """The sheet, in the operator's language."""
-    page = base_page(
+    met = run.meeting
+    page = two_robots_report(
         [arm.robot.said("title", context.language) for arm in run.cell.arms],
         run.bases,
         run.relation,
         made=datetime.now().strftime("%Y-%m-%d %H:%M"),
         language=context.language,
+        missed=None if met is None else (met.miss, met.predicted),
     )
     _send(context, "two_robots.html", page.encode("utf-8"))
 

@@ -12,6 +12,7 @@ from app.calibration.base.result import BaseCalibration
 from app.calibration.base.wizard import NESTS, TURN, BaseWizard, Step, steps
 from app.geometry.circle import fit_axis
 from app.kinematics import RobotModel
+from app.scene.instead import Instead
 from app.scene.tracker_cell import CellDrawing
 from app.screens._base.exam import PUSH, Exam
 from app.session.motion.pace import duration, pause, travel
@@ -23,6 +24,8 @@ from app.simulation.tracker_procedure import WIDEST, senses
 if TYPE_CHECKING:
     from app.screens.context import Context
 
+_FROM = np.array([-0.42, -0.74, 0.52])  # the eye's direction
+_LOOKS = 13  # places on each way that are kept in view
 _REST = 0.12  # seconds the arm stands at each point
 
 
@@ -75,6 +78,27 @@ class Run:
         arm = 1 if step is None else step.robot - 1
         return self.cell.arms[arm].robot, self.postures[arm]
 
+    def instead(self) -> Instead:
+        """What is looked at: the cell with the ways of both reflectors, and once both tools have met, the arms."""
+        cell = self.drawn
+        stands = [foot for arm in cell.arms for foot in _foot(arm.T_world_base.position)]
+        tips = self.drawn_tips()
+        if self.meeting is not None:
+            joints = [
+                arm.T_world_base.apply(arm.robot.chain.frames(q[None]).joint_positions[0])
+                for arm, q in zip(cell.arms, self.postures, strict=True)
+            ]
+            return Instead(np.vstack([*joints, *stands, tips]), tips.mean(axis=0), _FROM)
+        ways = [
+            arm.flange(cell.posture(k, axis, angle)).apply(arm.reflector)
+            for k, arm in enumerate(cell.arms)
+            for axis in (1, 2)
+            for angle in np.linspace(-np.pi, np.pi, _LOOKS)
+        ]
+        stands += _foot(cell.tracker.T_world_tracker.position)
+        arm = 1 if self.wizard.step is None else self.wizard.step.robot - 1
+        return Instead(np.vstack([*ways, *stands, *cell.nests]), tips[arm], _FROM)
+
     # What the arms and the beam do ------------------------------------------------------------------------
 
     def pose(self, arm: int, q: np.ndarray) -> None:
@@ -90,12 +114,16 @@ class Run:
         self.drawing.beam(flange.apply(self.drawn.arms[arm].reflector), sight.seen)
         return sight
 
-    def turn_to(self, angle: float) -> Sight:
-        """The axis of the step at hand at `angle` [rad], the other axes at zero."""
+    def turning(self, angle: float) -> Iterator[None]:
+        """The axis of the step at hand to `angle` [rad], the other axes to zero; by hand, while the switch is held."""
         step = self._step()
-        arm = step.robot - 1
-        self.pose(arm, self.now.posture(arm, step.axis, angle))
-        return self.aim(arm)
+        return self._moving(step.robot - 1, self.now.posture(step.robot - 1, step.axis, angle))
+
+    def homing(self) -> Iterator[None] | None:
+        """The arm of the step at hand to the zero position in the same way; None where it stands there."""
+        arm = self._step().robot - 1
+        rest = self.now.arms[arm].rest
+        return None if np.array_equal(self.postures[arm], rest) else self._moving(arm, rest)
 
     def _step(self) -> Step:
         step = self.wizard.step
@@ -253,3 +281,8 @@ class Run:
         points = np.array([r.point for r in self.wizard.of(step.key)])
         length = 0.9 * self.cell.arms[step.robot - 1].robot.reach
         self.drawing.circle(step.key, fit_axis(points), step.axis, self._stations[step.robot - 1], length)
+
+
+def _foot(place: np.ndarray) -> list[np.ndarray]:
+    """A place and the floor below it."""
+    return [place, place * [1.0, 1.0, 0.0]]

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from app.apart import DESCRIPTION, apart
-from app.errors import InputError, TeachframeError
+from app.errors import InputError
 from app.panel import Upload
 from app.panel import markup as html
 from app.people.limits import ARM, ARMS
@@ -85,21 +85,21 @@ class OwnArm:
         self._busy = True
         self._tell(context.t("cell.trying", name=files[0].name))
 
-        def run() -> Packed | TeachframeError:
+        def run() -> Packed | Exception:
             try:
                 return apart(bring, moved, inside, part, ARM, bounds=DESCRIPTION)
-            except TeachframeError as error:
+            except Exception as error:
                 return error
             finally:
                 shutil.rmtree(folder, ignore_errors=True)
 
         context.background(run, self._came)
 
-    def _came(self, found: Packed | TeachframeError) -> None:
+    def _came(self, found: Packed | Exception) -> None:
         context = self._context
         self._busy = False
         self._tell("")
-        if isinstance(found, TeachframeError):
+        if isinstance(found, Exception):
             raise found
         name = context.shelf.arms.keep(context.shelf.owner, found)
         context.do(ChooseRobot(name))

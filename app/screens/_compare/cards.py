@@ -19,7 +19,9 @@ from app.diagnosis.report.budget import (
     family_name,
     folded_sentence,
     percent,
+    shared_note,
     shown,
+    takes_away,
 )
 from app.diagnosis.report.drawing.palette import colour
 from app.diagnosis.report.wording import (
@@ -153,16 +155,16 @@ def notes(context: Context, diagnosis: Diagnosis) -> str:
 def findings(context: Context, diagnosis: Diagnosis) -> str:
     """Families in the budget's order, a card a law beneath; laws that explain little are folded."""
     of, language = budget(diagnosis), context.language
-    out = []
+    listed = [step for step in shown(of) if step.members or step.small or not _vanishes(step, of)]
+    note = shared_note(listed, of, language)
+    out = [html.paragraph(note, faint=True, testid="compare-shared")] if note else []
 
     def card(k: int, family: str) -> str:
         return _card(context, k + 1, diagnosis.findings[k], diagnosis.after.unit, colour(family))
 
-    for step in shown(of):
-        if not (step.members or step.small) and _vanishes(step, of):
-            continue
+    for step in listed:
         back = context.t("compare.comes_back", share=percent(step.share))
-        words = f"{family_name(step.family, language)} · {measure(step.amount, of.unit)}"
+        words = f"{family_name(step.family, language)} · {takes_away(step, of)}"
         out.append(html.block(html.safe("<b>{}</b> <small>{}</small>", words, back), look="family"))
         out += [card(k, step.family) for k in step.members]
         if step.small:

@@ -10,8 +10,7 @@ import numpy as np
 from app.kinematics import RobotModel
 from app.scene import Scene
 from app.scene.arm import ArmView
-from app.scene.camera import look_at_all
-from app.scene.eyes import Eyes
+from app.scene.instead import Instead
 from app.screens._compare.ghost import joints_for_point
 from app.screens._compare.loaded import Loaded
 from app.units import from_mm, mm
@@ -124,8 +123,8 @@ class Drawing:
         self._root.remove()
 
 
-def look_at(eyes: Eyes, loaded: Loaded) -> None:
-    """Turns the browser's eye so that the arm and every recorded point are seen."""
+def instead(loaded: Loaded, index: int) -> Instead:
+    """The arm and every recorded point, and the flange at a row, for whoever looks there."""
     q = loaded.evidence.q[np.linspace(0, loaded.count - 1, min(loaded.count, _POSES_SEEN)).astype(int)]
     frames = loaded.robot.chain.frames(q)
     around = np.concatenate(
@@ -134,7 +133,8 @@ def look_at(eyes: Eyes, loaded: Loaded) -> None:
     points = loaded.points
     if points is not None and np.isfinite(points).any():
         around = np.concatenate([around, points[np.isfinite(points).all(1)]])
-    look_at_all(eyes, around, _FROM)
+    flange = loaded.robot.forward(loaded.evidence.q[min(index, loaded.count - 1)])
+    return Instead(around, flange.position, _FROM)
 
 
 def _pointer(scene: Scene, flange: str, tip: np.ndarray, colour: np.ndarray) -> None:

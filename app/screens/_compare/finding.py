@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 
 from app.apart import SEARCH, GivenUpError, apart
 from app.diagnosis.result import Diagnosis
-from app.errors import TeachframeError
 from app.panel import markup as html
 from app.screens._compare.jobs import search
 from app.screens._compare.loaded import Loaded
@@ -78,19 +77,19 @@ class Search:
                 last = time.monotonic()
                 self._context.worker.latest("compare.progress", lambda: self._show(share, doing))
 
-        def job() -> Diagnosis | TeachframeError:
+        def job() -> Diagnosis | Exception:
             asked = (loaded.path, loaded.named, loaded.model)
             try:
                 return apart(search, *asked, bounds=SEARCH, say=say, stop=stop)
-            except TeachframeError as error:
+            except Exception as error:
                 return error
 
-        def done(result: Diagnosis | TeachframeError) -> None:
+        def done(result: Diagnosis | Exception) -> None:
             self._busy(False)
             if stop.is_set() or isinstance(result, GivenUpError):
                 self._context.say("info", self._context.t("compare.cancelled"))
                 return
-            if isinstance(result, TeachframeError):
+            if isinstance(result, Exception):
                 raise result
             self._found(loaded, result)
 

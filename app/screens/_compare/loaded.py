@@ -15,9 +15,11 @@ from app.diagnosis.report.drawing.arrows import magnification
 from app.diagnosis.result import Diagnosis, Evidence, Judged, Progress, Quality
 from app.kinematics import RobotModel
 from app.recordings.arm import read_with_arm
+from app.steps import listened, part
 
-#: Shares of the work at which reading and setting beside begin, as a log of 52 MB has them.
-_READING, _BESIDE = 0.1, 0.55
+#: Shares of the work that are done when the file's robot is there (of a joint log also its rows), and when the
+#: simulation stands beside it, where a model is judged too.
+_READ, _BESIDE = 0.15, 0.6
 
 
 @dataclass(frozen=True, eq=False)
@@ -146,11 +148,13 @@ def load(
     Raises:
         InputError, DegenerateGeometryError: it cannot be used.
     """
-    say = progress or (lambda share, doing: None)
-    say(_READING, "reading")
-    table, arm = read_with_arm(path, robot)
-    say(_BESIDE, "beside the simulation")
-    if model is None:
-        return Loaded(path, arm, robot, preview(table, arm), truth=truth)
-    evidence = preview(table, arm, model)
-    return Loaded(path, arm, robot, evidence, truth=truth, model=model, judged=judge(table, arm, model))
+    with listened(progress or (lambda share, doing: None), "reading"):
+        with part(0.0, _READ):
+            table, arm = read_with_arm(path, robot)
+        with part(_READ, 1.0 if model is None else _BESIDE):
+            evidence = preview(table, arm, model)
+        if model is None:
+            return Loaded(path, arm, robot, evidence, truth=truth)
+        with part(_BESIDE, 1.0, "beside the simulation"):
+            said = judge(table, arm, model)
+    return Loaded(path, arm, robot, evidence, truth=truth, model=model, judged=said)

@@ -25,10 +25,11 @@ class Outcome:
         self._context = context
         ui, t = context.ui, context.t
         self._verdict = ui.add_html("", visible=False)
-        self._budget = ui.add_html("", visible=False)
-        self._judged = ui.add_html("", visible=False)
+        # What is done next stands under the verdict; why, below it, is longer than most windows.
         self._apply = ui.add_button(t("compare.apply"), visible=False, hint=t("compare.apply_hint"))
         context.clicked(self._apply, put_in)
+        self._budget = ui.add_html("", visible=False)
+        self._judged = ui.add_html("", visible=False)
         self._findings = ui.add_html("", visible=False)
         self._next = ui.add_check(t("compare.next"), False, visible=False, hint=t("compare.next_hint"))
         self._poses = ui.add_html("", visible=False)

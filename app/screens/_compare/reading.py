@@ -7,7 +7,6 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from app.apart import RECORDING, GivenUpError, apart
-from app.errors import TeachframeError
 from app.panel import markup as html
 from app.screens._compare.jobs import Arrived
 
@@ -49,10 +48,10 @@ class Reading:
             if not stop.is_set():
                 self._context.worker.latest("compare.reading", lambda: self._far(stop, words, share, doing))
 
-        def run() -> Arrived | TeachframeError:
+        def run() -> Arrived | Exception:
             try:
                 return apart(job, *args, bounds=RECORDING, say=say, stop=stop)
-            except TeachframeError as error:
+            except Exception as error:
                 return error
 
         self._context.background(run, lambda found: self._done(stop, found))
@@ -61,14 +60,14 @@ class Reading:
         """What is being read is given up; its process ends."""
         self._stop.set()
 
-    def _done(self, stop: threading.Event, found: Arrived | TeachframeError) -> None:
+    def _done(self, stop: threading.Event, found: Arrived | Exception) -> None:
         if stop is not self._stop:  # another one is being read
             return
         self._show("", None)
         if stop.is_set() or isinstance(found, GivenUpError):
             self._context.say("info", self._context.t("compare.reading_cancelled"))
             return
-        if isinstance(found, TeachframeError):
+        if isinstance(found, Exception):
             raise found
         self._arrived(found)
 

@@ -2,6 +2,7 @@
 
 rows.py        the list: a row a point
 hand.py        what the program does for a careful hand: touch, stroke
+leading.py     which key is pressed next, and stands out
 next_touch.py  before a capture: what it would bring, and the best one as a ghost arm
 direct.py      the fields of direct entry
 deciding.py    the result: accepted or cancelled, exported

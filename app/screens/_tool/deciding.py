@@ -1,4 +1,4 @@
-"""The result: shown, accepted or cancelled; then the turn about it; export and report."""
+"""The result: shown, accepted or cancelled; then the turn about it; under the points, export and report."""
 
 from __future__ import annotations
 
@@ -29,24 +29,33 @@ class Deciding:
         self._folder = ui.add_folder(t("tool.result"), visible=False)
         with self._folder:
             self.light = ui.add_html("")
+            # Right under the verdict: under an exercise's task, too, it is in view.
+            self._decide = ui.add_buttons(
+                t("tool.decide"), (t("tool.accept"), t("tool.cancel")), visible=False, rank="main"
+            )
             number = len(context.session.state.tools) + 1
             self._name = ui.add_text(t("tool.name"), t("tool.first_name", number=number))
-            self._decide = ui.add_buttons(t("tool.decide"), (t("tool.accept"), t("tool.cancel")), rank="main")
             self._again = ui.add_buttons(
                 t("tool.then"), (t("tool.verify"), t("tool.again")), visible=False, rank="main"
             )
             self.verifying = Verifying(context)
             self.page = ui.add_html("")
-            self._formats = Words(context).formats()
-            self._format = ui.add_choice(t("tool.format"), tuple(self._formats))
-            give = ui.add_buttons(t("tool.give"), (t("tool.export"), t("tool.report")))
         self._doubted: object = None  # a result that the light warned of, and that was to be accepted once
         decide = {t("tool.accept"): self.accept, t("tool.sure"): self.accept, t("tool.cancel"): self._cancel}
         context.chosen(self._decide, lambda label: decide[label]())
         then = {t("tool.verify"): self.verifying.run, t("tool.again"): self._cancel}
         context.chosen(self._again, lambda label: then[label]())
+
+    def take_away(self) -> None:
+        """Export and report, where the caller has come to: who looks at a verdict wants its points beside it first."""
+        context, ui, t = self._context, self._context.ui, self._context.t
+        formats = Words(context).formats()
+        self._away = ui.add_folder(t("tool.away"), visible=False)
+        with self._away:
+            form = ui.add_choice(t("tool.format"), tuple(formats))
+            give = ui.add_buttons(t("tool.give"), (t("tool.export"), t("tool.report")))
         gives = {
-            t("tool.export"): lambda: send_frame(context, self._formats[self._format.value], self._tool_name),
+            t("tool.export"): lambda: send_frame(context, formats[form.value], self._tool_name),
             t("tool.report"): lambda: send_report(context, self._tool_name),
         }
         context.chosen(give, lambda label: gives[label]())
@@ -68,8 +77,8 @@ class Deciding:
     def refresh(self, state: SessionState) -> None:
         """Shows the result, with what can be done with it next."""
         taken = accepted(state)
-        self._folder.visible = state.result is not None
-        self._name.visible = self._decide.visible = not taken
+        self._folder.visible = self._away.visible = state.result is not None
+        self._name.visible = self._decide.visible = state.result is not None and not taken
         self._again.visible = taken
         self.verifying.refresh(state)
         if state.result is not self._doubted:

@@ -22,7 +22,7 @@ STROKE = from_mm(150.0)
 AXES = {"x": 0, "y": 1, "z": 2}
 #: Roles whose point is the spike: these the hand can touch.
 TOUCHED = frozenset({"touch", "origin", "known"})
-_THERE = 1e-3  # rad or m: the arm stands where the hand brought it
+THERE = 1e-3  # rad or m: the arm stands where the hand brought it
 
 
 class Hand:
@@ -42,7 +42,7 @@ class Hand:
         """True where the arm stands at the end of a stroke that the hand made away from the spike."""
         if self._back is None or self._back[0] != step.key:
             return False
-        return float(np.abs(self._back[1] - self._context.q).max()) < _THERE
+        return float(np.abs(self._back[1] - self._context.q).max()) < THERE
 
     def help_along(self, title: str) -> None:
         """Goes where the next point is: the orientation stays, the tip gets there within touch noise."""

@@ -45,8 +45,10 @@ class NextTouch:
     def __init__(self, context: Context, words: Words):
         self._context, self._words = context, words
         ui, t = context.ui, context.t
-        self._go = ui.add_button(t("tool.propose"), hint=t("tool.propose_hint"), rank="plain", visible=False)
-        context.clicked(self._go, self.go)
+        self.go_button = ui.add_button(
+            t("tool.propose"), hint=t("tool.propose_hint"), rank="plain", visible=False
+        )
+        context.clicked(self.go_button, self.go)
         self._asked: tuple[object, ...] = ()
         self._made = np.zeros((0, 3, 3))
         self._step: Step | None = None
@@ -74,7 +76,7 @@ class NextTouch:
         self._asked, self._step, self._written = asked, step, ""
         self._made = np.array([c.T_base_flange.rotation for c in touches]).reshape(-1, 3, 3)
         self.proposal, self._refused = None, ""
-        self._lines.visible = self._go.visible = self._go.disabled = True
+        self._lines.visible = self.go_button.visible = self.go_button.disabled = True
         self._ask(state, asked)
         self.numbers()
 
@@ -88,10 +90,14 @@ class NextTouch:
         context, proposal = self._context, self.proposal
         if proposal is None or proposal.q is None:
             return
-        words = context.t("message.proposed", title=self._title())
-        context.go(
-            proposal.q, lambda: context.say("info", words), context.t("errand.ghost", title=self._title())
-        )
+        title = self._title()
+
+        def arrived() -> None:
+            # Where the light says that the tip touches, the key that stands out is the one that records.
+            key = "touched" if context.aids.light and context.world.touching(context.q) else "proposed"
+            context.say("info", context.t(f"message.{key}", title=title))
+
+        context.go(proposal.q, arrived, context.t("errand.ghost", title=title))
 
     def close(self) -> None:
         """The page goes away: what is still being worked out is not shown."""
@@ -127,33 +133,38 @@ class NextTouch:
             except DegenerateGeometryError as error:
                 return error
 
-        def work() -> Proposal | DegenerateGeometryError:
-            """With the wrist as at the touches made, where that leaves something to propose."""
+        def work() -> Proposal | DegenerateGeometryError | None:
+            """With the wrist as at the touches made, where that leaves something to propose; None where nobody asks
+            for it any more: another point was recorded while it waited, or the page was made anew."""
             with _ONE:
+                if gone():
+                    return None
                 found = best(lambda q: (bool(side) and flipped(q)) or hindered(q))
                 return best(hindered) if side and isinstance(found, DegenerateGeometryError) else found
 
-        def done(found: Proposal | DegenerateGeometryError) -> None:
-            if self._closed or asked is not self._asked:
-                return  # meanwhile another point was recorded, or the page was made anew
+        def gone() -> bool:
+            return self._closed or asked is not self._asked
+
+        def done(found: Proposal | DegenerateGeometryError | None) -> None:
+            if found is None or gone():
+                return
             if isinstance(found, Proposal):
                 self.proposal = found
-                context.stage.next_arm.show(found.q, self._title())
-                context.stage.next_arm.arm_at(context.q)
+                context.stage.next_arm.show("tool", found.q, self._title())
             else:
                 said = found.said
                 self._refused = said.text(context.language) if isinstance(said, Phrase) else str(found)
-                context.stage.next_arm.show(None)
+                context.stage.next_arm.show("tool", None)
             self._written = ""
-            self._go.disabled = self.proposal is None
-            self.numbers()
+            self.go_button.disabled = self.proposal is None
+            context.numbers()  # which key is next depends on it
 
         context.background(work, done)
 
     def _put_away(self) -> None:
         self._asked, self._step, self.proposal = (), None, None
-        self._lines.visible = self._go.visible = False
-        self._context.stage.next_arm.show(None)
+        self._lines.visible = self.go_button.visible = False
+        self._context.stage.next_arm.show("tool", None)
 
     def _title(self) -> str:
         return self._words.step(self._step).title if self._step is not None else ""

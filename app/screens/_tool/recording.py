@@ -47,7 +47,7 @@ class Recording:
         if context.drive.how == "moving":
             raise ActionRefusedError(context.t("refused.moving"))
         if step.role in AXES:
-            self._stroke_happened(step)
+            self.check_stroke(step)
         action = ReRecord if step.key in context.session.state.captures else Record
         context.do(action(step.key, as_tuple(context.q), back=back and step.role in AXES))
         far = context.world.off(context.q, step.roles)
@@ -58,7 +58,8 @@ class Recording:
         else:
             context.say("good", context.t("message.recorded", title=step.title))
 
-    def _stroke_happened(self, step: Step) -> None:
+    def check_stroke(self, step: Step) -> None:
+        """Raises ActionRefusedError where the arm did not go along one line from the touch that strokes start from."""
         context = self._context
         origins = of_role(context.session.state.ordered, "origin")
         if not origins:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from app.calibration.verify import Verification, verify
+from app.calibration.verify import TOLERANCE, Verification, verify
 from app.panel import markup as html
 from app.scene.trace import trace_factor
 from app.screens._tool.hand import joints_of
@@ -118,7 +118,7 @@ class Verifying:
         self._trace(found)
         self._done = True
         words = self._sentence(found)
-        good = found.inside is not False and not found.stopped
+        good = found.good and not found.stopped
         context.say("good" if good else "warning", words)
         said = html.light("green" if good else "yellow", words, testid="verified")
         if context.world.picture is None:
@@ -133,8 +133,12 @@ class Verifying:
 
     def _sentence(self, found: Verification) -> str:
         t = self._context.t
-        key = {None: "verified", True: "verified_inside", False: "verified_not"}[found.inside]
-        words = t(f"message.{key}", mm=f"{mm(found.wander):.2f}", most=f"{mm(found.expected):.2f}")
+        words = t(
+            "message.verified_good" if found.good else "message.verified_not",
+            mm=f"{mm(found.wander):.2f}",
+            off=f"{mm(found.off):.2f}",
+            most=f"{mm(TOLERANCE):.1f}",
+        )
         if found.hindered is not None:
             words += " " + t("message.verified_stopped", reason=self._context.why(found.hindered))
         return words

@@ -31,7 +31,10 @@ class Words:
     @property
     def vocabulary(self) -> Vocabulary | None:
         """The maker chosen; None for the modes' own words."""
-        key = self._context.vocabulary or _OWN.get(self._context.language)
+        return self._of(self._context.language)
+
+    def _of(self, language: str) -> Vocabulary | None:
+        key = self._context.vocabulary or _OWN.get(language)
         return vocabulary(key) if key else None
 
     def makers(self) -> dict[str, str]:
@@ -94,5 +97,11 @@ class Words:
 
     def step(self, step: Step) -> Step:
         """A step with its title and instruction restated."""
-        words = self.vocabulary
-        return words.step(step, self._context.language) if words else step
+
+        def said(language: str) -> Step:
+            words = self._of(language)
+            return words.step(step, language) if words else step
+
+        now = said(self._context.language)
+        self._context.spoken.remember(now.title, lambda language: said(language).title)
+        return now

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from app.classroom.progress import Lesson
 from app.panel import markup as html
 from app.screens._training.lesson import verdict
+from app.session import SessionState
 from app.session.report import moment
 from app.session.state import Running, robot_named
 from app.training.exercise import Exercise, begun_exercise
@@ -106,6 +107,14 @@ def running(context: Context, now: Running) -> str:
         + html.paragraph(hint, faint=True, testid="exercise-where")
         + (html.more(t("training.hint"), hints) if hints else "")
     )
+
+
+def done(state: SessionState, now: Running) -> bool:
+    """True where everything the task asks for is there, so that it is finished next."""
+    goal = begun_exercise(now.begun).goal
+    if goal == "relation":
+        return now.wizard is not None and now.wizard.done
+    return state.tool is not None if goal == "tool" else not state.missing
 
 
 def after(context: Context, card: ScoreCard) -> str:

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import time
 from typing import TYPE_CHECKING
 
+from app.classroom.progress import next_lesson, standings
 from app.panel import Handle
 from app.screens._training import cards, plots
 from app.session.actions import Begin, Finish
 from app.training.attempt import last_attempt
-from app.training.exercise import begun_exercise, exercise, exercises
+from app.training.exercise import Exercise, begun_exercise, exercise, exercises
 from app.training.levels import levels_of, next_up
 from app.training.score import ScoreCard, score
 
@@ -54,7 +56,16 @@ def _keep(context: Context, begun: Begin) -> tuple[str, ScoreCard]:
     return trainee, card
 
 
-def _onward(context: Context, modal: Handle, card: ScoreCard) -> None:
+def _ahead(context: Context, trainee: str) -> tuple[Exercise, str] | None:
+    """What his class has given him next, as the page of his lessons has it; None where nothing is left."""
+    lessons = context.shelf.lessons()
+    ahead = next_lesson(lessons, standings(lessons, context.shelf.records.history(trainee), time.time()))
+    if ahead is None or ahead.exercise is None:
+        return None
+    return ahead.exercise, levels_of(ahead.exercise)[0]
+
+
+def _onward(context: Context, modal: Handle, trainee: str, card: ScoreCard) -> None:
     """Buttons under a score: what is next where it was passed, the same again in any case."""
     t = context.t
     chosen = exercise(card.exercise)
@@ -67,7 +78,7 @@ def _onward(context: Context, modal: Handle, card: ScoreCard) -> None:
                 return
 
     if card.passed and card.level:
-        following, level = next_up(chosen, card.level, list(exercises().values()))
+        following, level = _ahead(context, trainee) or next_up(chosen, card.level, list(exercises().values()))
         words = t(
             "training.next_up",
             title=following.said(context.language).title,
@@ -89,6 +100,6 @@ def show(context: Context, trainee: str, card: ScoreCard) -> None:
         tries = context.shelf.records.history(trainee, chosen.key)
         if len([c for c in tries if not c.given_up]) > 1:
             ui.add_html(plots.history(context, tries, chosen.goal))
-        _onward(context, modal, card)
+        _onward(context, modal, trainee, card)
         context.clicked(ui.add_button(t("training.close"), rank="plain"), modal.close)
         modal.heard = lambda _: context.post(modal.close)

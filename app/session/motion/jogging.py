@@ -59,9 +59,13 @@ class Jogging:
             drive.worker.latest("switch", self._switched)
 
     def let_go(self) -> None:
-        """The page is gone."""
+        """The page is gone: the next one holds nothing yet, and numbers its presses from the beginning."""
         self._held = None
         self._drive.enabling.let_go()
+        self._drive.worker.post(self._forget)
+
+    def _forget(self) -> None:
+        self._begun = None
 
     def _switched(self) -> None:
         drive = self._drive

@@ -89,13 +89,6 @@ class Worker:
             self._timers[name] = (time.monotonic() + seconds, job)
             self._wake.notify()
 
-    def hasten(self, start: str, but: str = "") -> None:
-        """What waits under names that begin with `start` is done next; what waits under `but` goes on waiting."""
-        with self._wake:
-            for name in [name for name in self._timers if name.startswith(start) and name != but]:
-                self._queue.append(_Entry(self._timers.pop(name)[1], None))
-            self._wake.notify()
-
     def waits(self, name: str) -> bool:
         """True while something waits for its time under this name."""
         return name in self._timers

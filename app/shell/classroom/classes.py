@@ -90,7 +90,9 @@ class Classes:
             case "code":
                 await asyncio.to_thread(classes.new_code, at.id)
                 return self._front.back(asked, f"/class/{at.id}", "new_code_is")
-            case "delete" if form.get("sure"):
+            case "delete":
+                if not form.get("sure"):
+                    return self._front.back(asked, f"/class/{at.id}/lessons")
                 await asyncio.to_thread(self._room.delete, at.id, asked.person.id)
                 return self._front.back(asked, "/classes", "deleted")
         return self._front.back(asked, f"/class/{at.id}/lessons", "kept")

@@ -111,15 +111,15 @@ class People:
     async def _dismiss(self, asked: Asked) -> Response:
         at = await self._front.at(asked)
         who = await self._front.trainee(asked, at)
-        if asked.form.get("sure"):
-            await asyncio.to_thread(self._room.people.classes.dismiss, at.id, who.id)
-            await asyncio.to_thread(self._room.people.audit.note, asked.person.id, "dismiss", who.id)
+        if not asked.form.get("sure"):
+            return self._front.back(asked, f"/class/{at.id}/person/{who.id}")
+        await asyncio.to_thread(self._room.people.classes.dismiss, at.id, who.id)
+        await asyncio.to_thread(self._room.people.audit.note, asked.person.id, "dismiss", who.id)
         return self._front.back(asked, f"/class/{at.id}", "dismissed")
 
     def _sessions(self, who: Person) -> list[Listed]:
         titles = self._hub.owners.titles(who.owner)
         return [
             Listed(one.name, titles[one.name] or moment(one.created, "%Y-%m-%d %H:%M"), one.last, one.actions)
-            for one in self._hub.store.list()
-            if one.name in titles
-        ][:_SESSIONS]
+            for one in self._hub.store.list(_SESSIONS, titles.keys())
+        ]

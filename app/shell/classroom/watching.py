@@ -11,11 +11,13 @@ from starlette.routing import BaseRoute, Route, WebSocketRoute
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from app.classroom.hints import LONGEST
+from app.errors import TeachframeError
 from app.people import Person
 from app.shell.bridge import scene_page, watch_scene
 from app.shell.classroom.front import Asked, Front, NotHereError
 from app.shell.coming_in import to_login
 from app.shell.elsewhere import sent_on
+from app.shell.forms import is_dark
 from app.shell.messages import said
 from app.shell.security import HEADERS
 from app.workers.live import Live
@@ -62,7 +64,7 @@ class Watching:
     async def _scene_socket(self, page: WebSocket) -> None:
         live = await self._live(page)
         if live is not None:
-            await watch_scene(page, live)
+            await watch_scene(page, live, dark=is_dark(page))
 
     async def _words(self, page: WebSocket) -> None:
         live = await self._live(page)
@@ -101,7 +103,10 @@ class Watching:
                 await asyncio.sleep(_BETWEEN)
                 if loop.time() - asked > _ASKED:
                     asked = loop.time()
-                    await self._watched(page, alive=False)
+                    with contextlib.suppress(
+                        TeachframeError
+                    ):  # the database does not answer: that shuts nobody out
+                        await self._watched(page, alive=False)
                 with contextlib.suppress(TimeoutError):
                     await asyncio.wait_for(news.wait(), _QUIET)
             await page.close(_SWITCHED)

@@ -1,7 +1,7 @@
 // The frame that nothing hides: status, jog panel, message line.
 import { say } from "./link.js";
 import { pairs, put } from "./text.js";
-import { choose, chosenAxis, enable, held, holdable, jog, onShown } from "./hold.js";
+import { axesAre, choose, chosenAxis, dropJogs, enable, held, holdable, jog, onShown } from "./hold.js";
 
 const $ = (id) => document.getElementById(id);
 let texts = {};
@@ -14,6 +14,17 @@ let audio = null;
 
 export const t = (key, fields = {}) =>
   (texts[key] ?? key).replace(/\{(\w+)\}/g, (whole, name) => fields[name] ?? whole);
+
+// On a phone the top line has room for what must be seen; the keys for looks stand beside Home, under Jog.
+const phone = matchMedia("(max-width:600px)");
+function settle() {
+  const line = document.querySelector("#jog .line");
+  const moved = phone.matches ? ["sound", "theme"] : [];
+  if (phone.matches && !$("beside").hidden) moved.unshift("language");
+  for (const id of ["language", "sound", "theme"])
+    if (moved.includes(id)) line.append($(id));
+    else $("bar").insertBefore($(id), $("beside"));
+}
 
 function segment(place, keys, label, pick) {
   place.replaceChildren(...keys.map((key) => {
@@ -48,6 +59,7 @@ export function greet(hello) {
   $("scene").title = t("page.scene");
   $("beside").hidden = !hello.beside;
   if (hello.beside) { $("beside").href = hello.beside; $("beside").textContent = t("page." + hello.beside); }
+  settle();
   $("person").hidden = !hello.person;
   $("person").textContent = [...hello.person][0] ?? "";
   $("person").title = `${hello.person} · ${t("people.account")}`;
@@ -80,6 +92,7 @@ function rows(axes) {
     line.append(name, pair(axis, -1), value, pair(axis, 1));
     return line;
   }));
+  axesAre(axes.length);
 }
 
 function pair(axis, sign) {
@@ -144,6 +157,7 @@ export function show(read) {
   mark($("increments"), read.increment);
   put($("of"), read.of);
   pairs($("pose"), read.pose);
+  if (!read.own) dropJogs();
   for (const key of $("axes").querySelectorAll(".jk")) key.disabled = !read.own;
   $("home").disabled = !read.own;
   for (const value of $("axes").querySelectorAll(".val")) value.disabled = !read.own || read.frame !== "joint";
@@ -196,6 +210,8 @@ function pressed() {
 }
 
 export function begin() {
+  phone.onchange = settle;
+  settle();
   onShown(pressed);
   holdable($("enable"), (who) => enable(who, true), (who) => enable(who, false));
   $("estop").addEventListener("pointerdown", (event) => {

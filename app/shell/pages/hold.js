@@ -1,4 +1,4 @@
-// What is held: the enabling switch and one motion button, by pointer, key or gamepad. Said at every change, and again
+// What is held: the enabling switch and one motion button, by pointer or key, and by a gamepad (pad.js). Said at every change, and again
 // and again while anything is held; when this page falls silent, the server stops the arm.
 import { say } from "./link.js";
 
@@ -7,12 +7,14 @@ const enabling = new Set();
 const jogs = new Map(); // what holds it -> [axis, sign, number of the press]
 let press = 0;
 let chosen = 0;
+let count = 7; // axes that are there
+let dropped = 0;
 let timer = null;
 let shown = () => {};
 
 export function onShown(listener) { shown = listener; }
 export function chosenAxis() { return chosen; }
-export function choose(axis) { chosen = axis; shown(); }
+export function choose(axis) { chosen = Math.max(0, Math.min(count - 1, axis)); shown(); }
 export function held() { return { enabling: enabling.size > 0, jogs: [...jogs.values()] }; }
 
 function word() {
@@ -44,7 +46,26 @@ export function jog(who, axis, sign) {
   changed();
 }
 
+// The buttons are gone, or mean another way now: a finger that is still on one holds nothing, wherever it is lifted.
+export function dropJogs() {
+  if (!jogs.size) return;
+  dropped += 1;
+  jogs.clear();
+  changed();
+}
+
+// Other axes: their buttons are new.
+export function axesAre(number) {
+  count = number;
+  dropJogs();
+  choose(chosen);
+}
+
+// How often everything was let go of: who is still held then, and says so again and again, has to be let go first.
+export function drops() { return dropped; }
+
 export function drop() {
+  dropped += 1;
   if (!enabling.size && !jogs.size) return;
   enabling.clear();
   jogs.clear();
@@ -106,22 +127,3 @@ export function keys(where) {
 }
 
 document.addEventListener("visibilitychange", () => { if (document.hidden) drop(); });
-
-// A gamepad: shoulder buttons enable, the cross chooses and moves the axis, the round button on the right stops.
-let polling = false;
-let crossed = 0;
-
-function poll() {
-  const pad = [...navigator.getGamepads()].find((one) => one && one.connected);
-  if (!pad) { polling = false; enable("pad", false); jog("pad", 0, 0); return; }
-  const down = (number) => Boolean(pad.buttons[number]?.pressed);
-  if (down(1)) { say({ t: "stop" }); drop(); }
-  enable("pad", down(4) || down(5) || down(6) || down(7));
-  const next = down(13) ? 1 : down(12) ? -1 : 0;
-  if (next && !crossed) choose(Math.max(0, Math.min(6, chosen + next)));
-  crossed = next;
-  jog("pad", chosen, down(15) ? 1 : down(14) ? -1 : 0);
-  requestAnimationFrame(poll);
-}
-
-window.addEventListener("gamepadconnected", () => { if (!polling) { polling = true; poll(); } });

@@ -3,6 +3,7 @@ import * as frame from "./frame.js";
 import { drop, keys } from "./hold.js";
 import { fetchFile } from "./files.js";
 import { begin as hints, hint } from "./hint.js";
+import { pads } from "./pad.js";
 import { drawnBySoftware } from "./software.js";
 import { openScreen, update } from "./panel.js";
 
@@ -25,8 +26,7 @@ link.hear("read", (read) => {
   frame.show(read);
   hint(read, frame.t);
   if (read.screen && read.screen !== wanted) {
-    openScreen(read.screen);
-    link.say({ t: "choose", what: "screen", value: "" });
+    openScreen(read.screen, true);
   }
   wanted = read.screen;
 });
@@ -51,4 +51,5 @@ window.teachframe = { ping: () => new Promise((give) => { const n = Math.random(
 frame.begin();
 hints();
 keys(window);
+pads();
 link.open();

@@ -28,6 +28,16 @@ function field(data, input, look = "") {
   return label;
 }
 
+// The key that is pressed next, the first of its screen, comes up from below the edge; who has scrolled past it is left
+// where he reads.
+function comeUp(screen) {
+  requestAnimationFrame(() => {
+    const key = [...(screen?.querySelectorAll("button.main") ?? [])].find((one) => one.checkVisibility());
+    const edge = document.getElementById("work").getBoundingClientRect().bottom;
+    if (key && key.getBoundingClientRect().bottom > edge) key.closest(".w").scrollIntoView({ block: "nearest" });
+  });
+}
+
 const KINDS = {
   screen: (data) => {
     const element = make("section", "screen");
@@ -69,9 +79,12 @@ const KINDS = {
     button.onclick = () => press(data);
     return { element, update: (now) => {
       button.textContent = now.label;
-      button.className = (now.rank ?? "main") + (now.value ? " pressed" : "");
+      const rank = now.rank ?? "main";
+      const leads = rank === "main" && button.classList.contains("plain");
+      button.className = rank + (now.value ? " pressed" : "");
       button.disabled = now.disabled ?? false;
       button.title = now.hint ?? "";
+      if (leads) comeUp(element.closest(".screen"));
     } };
   },
   buttons: (data) => {
@@ -220,10 +233,12 @@ function draw(data) {
     known.set(data.id, entry);
   }
   const moved = fresh || entry.data.order !== data.order;
+  const came = !fresh && entry.element.hidden && data.visible !== false;
   entry.data = data;
   entry.element.hidden = data.visible === false;
   entry.update?.(data);
   if (moved) place(entry);
+  if (came && data.kind.startsWith("button") && (data.rank ?? "main") === "main") comeUp(entry.element.closest(".screen"));
 }
 
 function tabs() {
@@ -249,15 +264,20 @@ function tabs() {
   for (const entry of screens) entry.element.hidden = entry.data.key !== shown;
 }
 
-export function openScreen(key) {
+// Which screen is open is said to the server: the scene shows what belongs to it. Where the server opens one there is
+// something to do on it; who opens it himself begins to read at its top.
+export function openScreen(key, asked = false) {
   active = key;
+  say({ t: "choose", what: "screen", value: key });
   sessionStorage.setItem("teachframe.screen", key);
   tabs();
   document.getElementById("work").scrollTop = 0;
+  if (asked) comeUp(document.getElementById("screen-" + key));
 }
 
 export function update(message) {
   if (message.whole) {
+    say({ t: "choose", what: "screen", value: active });
     for (const entry of known.values()) entry.element.remove();
     known.clear();
   }

@@ -7,6 +7,7 @@ import pytest
 
 from app.calibration.base.run import run_base
 from app.errors import DegenerateGeometryError, TooFewPointsError
+from app.estimation import HALF
 from tests.calibration.base.cells import random_cells, turned
 from tests.calibration.base.files import cell, codes, first_row, turn_error, write
 
@@ -78,8 +79,8 @@ def test_an_arc_under_90_degrees_is_named_with_the_error_it_costs(tmp_path):
     costs = re.search(r"open by ([\d.]+) degrees and its centre by ([\d.]+) mm, where 180 degrees", message)
     assert costs is not None
     arc = found.to_json()["arcs"][0]
-    assert float(costs[1]) == pytest.approx(arc["sigma_axis_deg"], abs=1e-4)
-    assert float(costs[2]) == pytest.approx(arc["sigma_centre_mm"], abs=1e-3)
+    assert float(costs[1]) == pytest.approx(HALF * arc["sigma_axis_deg"], abs=1e-4)
+    assert float(costs[2]) == pytest.approx(HALF * arc["sigma_centre_mm"], abs=1e-3)
     assert "axis 1" in message and "axis 2" not in message
 
 

@@ -104,7 +104,9 @@ def test_a_moved_tracker_without_enough_fixed_points_gives_no_relation_at_all(tm
 
 def test_without_fixed_points_the_result_says_that_nothing_would_show_a_move(tmp_path):
     paths, _ = _pair(tmp_path, 5)
-    assert any("nothing in these files" in note for note in run_base(paths).to_json()["relation"]["notes"])
+    assert any(
+        "nothing in these recordings" in note for note in run_base(paths).to_json()["relation"]["notes"]
+    )
 
 
 def test_the_text_tells_where_the_tools_meet_and_how_far_they_miss(tmp_path):

@@ -40,6 +40,13 @@ def test_each_joints_lag_behind_its_command_is_told_with_its_uncertainty(tmp_pat
     assert found.verdict == "named"
 
 
+def test_angles_ahead_of_their_command_are_told_as_that_and_not_as_a_lateness_below_zero(tmp_path):
+    found = _with_commands(tmp_path, np.array([0.0, 0.0, -0.03, 0.0, 0.0, 0.0]))
+    (only,) = found.findings
+    assert only.parameters[0].value == pytest.approx(-0.03, abs=1e-3)
+    assert "0.03 s ahead of its command" in only.sentence and "-0.0" not in only.sentence
+
+
 @pytest.mark.parametrize("noise", [0.0, 1e-4])
 def test_commands_that_are_followed_at_once_are_no_delay(tmp_path, noise):
     assert not _with_commands(tmp_path, np.zeros(6), noise=noise).findings

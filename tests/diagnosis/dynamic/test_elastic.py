@@ -140,6 +140,14 @@ def test_the_twist_is_the_solution_of_its_equation():
         twist(t, Behind(rigid, inertia, weight), 10.0, damping, [slice(0, 600)])
 
 
+@pytest.mark.parametrize("damping", [0.0, 2.0 * np.sqrt(800.0 * 0.5), 600.0])
+def test_a_long_gap_is_no_matter_however_heavily_it_is_damped(damping):
+    t = np.concatenate([np.arange(300), np.arange(300) + 60_000]) * 0.01
+    behind = Behind(np.sin(t), np.full(600, 0.5), np.zeros(600))
+    x, push = twist(t, behind, 800.0, damping, [slice(0, 300), slice(300, 600)])
+    assert np.isfinite(push).all() and np.abs(x).max() < 2.0 / 800.0
+
+
 def test_columns_are_the_torque_of_the_saved_law_and_its_slopes_are_those_of_the_torque(tmp_path):
     robot = load_robot("ur10e")
     rng = np.random.default_rng(551)

@@ -17,6 +17,7 @@ from tests.diagnosis.dynamic.simulator import measure, swing, write
 SIGMAS = 4.5
 MASS = 3.0
 PLACES = {3: [0.1, 0.25, 0.12], 5: [0.06, -0.1, 0.08]}  # m in the link's frame
+OPEN = {2: [0.2, 0.15, 0.1]}  # whose moment shows and whose weight does not: joint 1 turns about the vertical
 
 
 def _add(run, link: int, change: np.ndarray) -> None:
@@ -29,7 +30,7 @@ def _table(path, seed, *, load=None, heavier=None, friction=0.0):
     robot, rng = load_robot("ur10e"), np.random.default_rng(seed)
     run = swing(robot, rng, samples=2000)
     if load is not None:
-        _add(run, load, point_mass(MASS, np.array(PLACES[load])))
+        _add(run, load, point_mass(MASS, np.array((PLACES | OPEN)[load])))
     if heavier is not None:
         _add(run, heavier, 0.4 * inertial_parameters(robot)[10 * (heavier - 1) : 10 * heavier])
     run.torque += friction * np.array([6, 6, 4, 1, 1, 1]) * np.sign(run.qd)
@@ -74,3 +75,15 @@ def test_what_a_link_carries_since_the_reference_is_a_load(tmp_path, link):
     found = diagnose(table, robot, reference=before)
     finding = _the_load(found, link)
     assert len(found.findings) == 1 and not finding.alternatives
+
+
+def test_a_load_whose_weight_no_motion_shows_is_not_silent(tmp_path):
+    """It was said to be clean: the change is beyond doubt, the weight is open, and its interval says so."""
+    table, robot = _table(tmp_path / "loaded.csv", 85, load=2, friction=1.0)
+    before, _ = _table(tmp_path / "bare.csv", 86, friction=1.0)
+    found = diagnose(table, robot, reference=before)
+    (finding,) = found.findings
+    assert (finding.effect, finding.where) == ("payload", {"link": 2})
+    mass = finding.parameters[0]
+    assert mass.value > 0 and abs(mass.value - MASS) < 2.0 * mass.std and mass.std > 0.2 * MASS
+    assert finding.heldout_rms_without > 1.2 * finding.heldout_rms_with

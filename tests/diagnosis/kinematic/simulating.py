@@ -46,14 +46,16 @@ def tracker_rows(robot, q, terms=(), *, noise=NOISE_MM, rng, time=None, distort=
     return points + from_mm(rng.normal(0, noise, points.shape))
 
 
-def write_tracker(path: Path, robot, q, points, *, noise=NOISE_MM, stated=True, keys=(), extra=None):
+def write_tracker(
+    path: Path, robot, q, points, *, noise=NOISE_MM, stated=True, keys=(), extra=None, seconds=None
+):
     """Writes a tracker recording and reads it back."""
     names = [f"q{j + 1}_{'m' if joint.prismatic else 'rad'}" for j, joint in enumerate(robot.joints)]
     for r in range(points.shape[1]):
         names += [f"{c}{'' if r == 0 else r + 1}_mm" for c in "xyz"]
     body = [q, mm(points.reshape(len(q), -1))]
     names.append("t_s")
-    body.append((np.arange(len(q)) * SECONDS_A_ROW)[:, None])
+    body.append((np.arange(len(q)) * SECONDS_A_ROW if seconds is None else seconds)[:, None])
     for name, column in (extra or {}).items():
         names.append(name)
         body.append(np.asarray(column)[:, None])

@@ -5,6 +5,7 @@ import pytest
 from scipy.signal import lfilter
 
 from app.diagnosis.kinematic.diagnose import diagnose
+from app.diagnosis.model import model_of
 from tests.diagnosis.kinematic.simulating import NOISE_MM, poses, term, tracker_rows, write_tracker
 
 MEMORY = 0.6
@@ -32,3 +33,13 @@ def test_a_base_that_moved_is_found_whether_errors_remember_or_not(arm, tmp_path
     found = diagnose(_recorded(arm, tmp_path, 822, memory, (moved,)), arm)
     assert [f.effect for f in found.findings] == ["base_shift"]
     assert abs(found.findings[0].where["from_row"] - 31) <= 2
+
+
+def test_on_a_sound_description_what_is_said_is_what_is_saved(arm, tmp_path):
+    """However errors hang together: laws alone are elsewhere what they are here."""
+    zero = term("joint_zero", {"joint": 3}, [2e-3])
+    found = diagnose(_recorded(arm, tmp_path, 833, MEMORY, (zero,)), arm)
+    (named,) = found.findings
+    saved = [e for e in model_of(found).effects if e.effect == "joint_zero"]
+    assert [named.effect, len(saved)] == ["joint_zero", 1]
+    assert np.degrees(saved[0].parameters["offset"]) == pytest.approx(named.parameters[0].value, rel=1e-9)

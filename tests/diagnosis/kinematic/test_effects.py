@@ -18,7 +18,7 @@ COLUMN_TOLERANCE = 2e-4
 #: Standard deviations an estimate may lie from the truth.
 SIGMAS = 4.5
 
-LINEAR = sorted(set(effects()) - {"wrong_convention"})
+LINEAR = sorted(set(effects()) - {"wrong_convention", "delay"})
 
 #: One example an effect: where, values in SI, form. Sizes of one or two millimetres at the tool.
 EXAMPLES = {
@@ -72,6 +72,13 @@ def test_columns_are_the_slope_of_the_exact_law(plain, key):
 def test_columns_are_the_slope_where_the_base_is_far_from_where_it_was(displaced, key):
     """The base's own turns are left out: there columns are turns about the base's axes, the law's numbers are not."""
     _compare(displaced, key)
+
+
+def test_columns_of_an_arm_that_moves_are_the_slope_of_the_exact_law(arm, tmp_path):
+    rng = np.random.default_rng(5)
+    q, seconds = poses(arm, rng, 40), 0.05 * np.arange(40)
+    table = write_tracker(tmp_path / "on.csv", arm, q, tracker_rows(arm, q, rng=rng), seconds=seconds)
+    _compare(plain_state(read_static(table, arm), ())[0], "delay")
 
 
 def _compare(plain, key):

@@ -1,8 +1,11 @@
 """Very many rows: an even choice of them, whole poses and targets at a time."""
 
 import numpy as np
+import pytest
 
+from app.diagnosis.models.kinematic.situation import situation_for
 from app.diagnosis.observations.thinning import MOST_ROWS, MOST_SESSIONS, MOST_TARGETS, thinned
+from app.kinematics import load_robot
 
 
 def test_few_rows_all_stay():
@@ -42,3 +45,32 @@ def test_targets_of_many_touches_keep_some_of_each():
 def test_rows_that_cannot_be_used_never_come_back():
     keep = np.arange(60_000) % 3 > 0
     assert not (thinned(keep, np.arange(60_000), None) & ~keep).any()
+
+
+@pytest.mark.parametrize("stated", [False, True], ids=["alone", "with time, load and warmth"])
+def test_rows_that_are_left_out_still_say_where_the_others_came_from(stated):
+    """Torques are worked out for the rows that are worked on alone: of 400,000 rows they were for all."""
+    robot, rng = load_robot("ur10e"), np.random.default_rng(11)
+    q = rng.uniform(-1.0, 1.0, (60, robot.joint_count))
+    q[20:30, 2] = q[20, 2]
+    keep = rng.random(60) < 0.4
+    more = {}
+    if stated:
+        more = {"time": np.arange(60.0) + 5.0, "temperature": rng.random(60), "payload": rng.random(60)}
+    whole, some = situation_for(robot, q, **more), situation_for(robot, q, keep=keep, **more)
+    names = (
+        "q",
+        "torque",
+        "leaning",
+        "moment",
+        "approach",
+        "move",
+        "speed",
+        "time",
+        "order",
+        "temperature",
+        "payload",
+    )
+    for name in names:
+        all_, kept = getattr(whole, name), getattr(some, name)
+        assert (all_ is None and kept is None) or np.array_equal(all_[keep], kept), name

@@ -15,12 +15,15 @@ from app.diagnosis.report.budget import (
     budget_sentence,
     law_share,
     percent,
+    shared_note,
+    shown,
     unexplained_sentence,
 )
 from app.diagnosis.report.drawing.budget_bar import budget_bar
 from app.diagnosis.report.drawing.joint_bars import joint_bars
 from app.diagnosis.report.wording import measure
 from app.diagnosis.result import FamilyShare, Leftover, Quality
+from app.diagnosis.wording import WORDS
 from tests.diagnosis.report.cases import compliance, motion_case, static_case
 
 
@@ -85,6 +88,28 @@ def test_a_family_that_makes_it_worse_takes_nothing_and_the_sum_still_holds():
     of = budget(case)
     assert [s.amount for s in of.steps] == pytest.approx([0.0, 0.842 - 0.153])
     assert "joint zeros" not in budget_sentence(case)
+
+
+def test_a_family_that_adds_nothing_but_would_be_missed_has_a_dash_and_a_note_says_why():
+    """ "0 mm, 2% comes back" reads as a contradiction: what it explains was counted with those before it."""
+    off = arm_off_everywhere()
+    zeros, geometry, *others = off.families
+    case = dataclasses.replace(
+        off, families=(zeros, dataclasses.replace(geometry, heldout_rms_after=0.3), *others)
+    )
+    note = WORDS.text("budget.shared", "en")
+    text, page = as_text(case), as_page([case], [None], command="x", date="")
+    assert re.search(r"geometry +– +0.300 mm +2%", text) and "geometry            0" not in text
+    assert note in text.replace("\n  ", " ") and escape(note, quote=False) in page
+    assert '<span class="amount">–</span><span class="soft">2% comes back' in page
+    assert case.to_json()["families"][1]["heldout_rms_after"] == 0.3
+    for without in (
+        off,
+        dataclasses.replace(off, families=(zeros, FamilyShare("geometry", 0.0, 0.3), *others[:1])),
+    ):
+        assert (
+            note not in as_text(without) and shared_note(shown(budget(without)), budget(without), "zh") == ""
+        )
 
 
 def test_laws_below_a_fiftieth_of_the_error_are_folded():

@@ -122,3 +122,20 @@ def test_a_family_without_a_law_of_its_own_is_listed_where_it_would_be_missed(de
     named = [f for f in bare.families if f.share > 0.1]
     assert named and said.count("block family") >= len(named)
     assert "comes back without it" in said
+
+
+def test_a_family_that_adds_nothing_but_would_be_missed_has_a_dash_with_a_note(desk):
+    from dataclasses import replace
+
+    from app.diagnosis.result import FamilyShare
+    from app.screens._compare import cards
+
+    case = static_case()
+    first = case.families[0]
+    late = FamilyShare("play", 0.03, first.heldout_rms_after, ())
+    said = cards.findings(desk.context, replace(case, families=(first, late)))
+    assert "play · –" in said and "compare-shared" in said and "play · 0" not in said
+    assert "compare-shared" not in cards.findings(desk.context, replace(case, families=(first,)))
+    # One that is not listed, since it is small and nobody would miss it, leaves no note behind.
+    small = replace(late, share=0.01)
+    assert "compare-shared" not in cards.findings(desk.context, replace(case, families=(first, small)))

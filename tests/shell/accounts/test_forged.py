@@ -91,6 +91,6 @@ def test_cookies_are_hidden_from_scripts_and_sites_and_go_over_tls_alone(shell, 
     )
     said = answer.headers["set-cookie"].lower()
     assert answer.status_code == 303
-    assert all(word in said for word in ("httponly", "samesite=strict", "secure", "max-age=43200"))
+    assert all(word in said for word in ("httponly", "samesite=strict", "secure", "max-age=86400"))
     plain = {"origin": "http://127.0.0.1:8080"}
     assert client.post("/logout", headers=plain).status_code == 403, "a page without TLS is another place"

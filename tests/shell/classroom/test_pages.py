@@ -263,3 +263,10 @@ def test_every_field_and_button_has_a_name(hub, trainer, at, ada):
         for found in re.finditer(r"<button\b([^>]*)>(.*?)</button>", page, re.S):
             assert plain(found[2]).strip() or "aria-label=" in found[1], found[0]
     assert ORIGIN
+
+
+def test_what_was_not_ticked_is_not_said_to_be_done(trainer, people, at, ada):
+    away = trainer.post(f"/class/{at.id}/dismiss/{ada.person.id}")
+    deleted = trainer.post(f"/class/{at.id}", do="delete")
+    assert "done" not in away.headers["location"] + deleted.headers["location"]
+    assert people.classes.of(ada.person.id)

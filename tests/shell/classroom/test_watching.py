@@ -3,12 +3,15 @@
 import json
 import threading
 import time
+from contextlib import suppress
 
 import msgspec
 import numpy as np
 import pytest
+from anyio import ClosedResourceError
 from starlette.websockets import WebSocketDisconnect
 
+from app.errors import StorageError
 from app.shell.classroom import watching
 from tests.desk import until
 
@@ -145,3 +148,29 @@ def test_watching_is_in_the_audit_log(trainer, people, ada, path):
     assert ("watch", ada.person.id) in {
         (e.deed, e.about) for e in people.audit.read(person=trainer.person.id)
     }
+
+
+def test_a_database_that_is_away_for_a_moment_ends_nobodys_watching(trainer, hub, seated, path, monkeypatch):
+    monkeypatch.setattr(watching, "_ASKED", 0.0)
+    asked = []
+
+    def away(*_):
+        asked.append(1)
+        raise StorageError("away")
+
+    figures = []
+
+    def listen(page):
+        with suppress(WebSocketDisconnect, ClosedResourceError):
+            while True:
+                figures.append(json.loads(page.receive_text())["axes"][0]["number"])
+
+    with trainer.socket(f"{path}/words") as page:
+        page.receive_text()
+        monkeypatch.setattr(hub.room, "members", away)
+        threading.Thread(target=listen, args=(page,), daemon=True).start()
+        seated.place(seated.q + 0.01)
+        until(lambda: asked, "it to be asked")
+        seated.place(seated.q + 0.01)
+        now = seated.live.read().axes[0].number
+        until(lambda: now in figures, "the figures of now", 20.0)

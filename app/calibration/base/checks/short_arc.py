@@ -10,6 +10,7 @@ from app.calibration.base.arcfit import ArcFit
 from app.calibration.base.checks import Check
 from app.calibration.base.wording import remark
 from app.calibration.result import Warning_
+from app.estimation import HALF
 from app.geometry.circle import fit_axis
 from app.units import deg, from_deg, mm
 
@@ -34,10 +35,10 @@ def _arc(found: ArcFit) -> Iterator[Warning_]:
         CHECK.key,
         axis=found.arc.axis,
         arc=deg(found.length),
-        tilt=deg(found.sigma_axis),
-        centre=mm(found.sigma_centre),
-        good_tilt=deg(axis),
-        good_centre=mm(centre),
+        tilt=HALF * deg(found.sigma_axis),
+        centre=HALF * mm(found.sigma_centre),
+        good_tilt=HALF * deg(axis),
+        good_centre=HALF * mm(centre),
     )
 
 

@@ -127,6 +127,10 @@ class Law(Effect[State, State, np.ndarray]):
     def columns(self, columns: State, place: Place) -> Torques:  # pyright: ignore[reportIncompatibleMethodOverride]
         """Joint -> (M, d): torque per unit of each linear parameter [Nm]."""
 
+    def shape(self, state: State, place: Place) -> np.ndarray:
+        """(M,) how much of it there is at each time (`windowed` only); its columns are those without times by that."""
+        return np.ones(len(state.t))
+
     def quantities(self, situation: State, place: Place) -> tuple[Quantity, ...]:
         """The linear parameters; their nominal widths are measured on the log, see `widths`."""
         return tuple(Quantity(name, self.units.get(name, ""), 1.0) for name in self.linear)

@@ -37,14 +37,17 @@ class Contact(Law):
     def places(self, situation: State) -> Iterable[Place]:
         return [Place({"body": "tool", "driver": "time"}, scan=True)]
 
-    def columns(self, columns: State, place: Place) -> Torques:
+    def shape(self, state: State, place: Place) -> np.ndarray:
         where = place.where
-        inside = (columns.t >= where.get("from_s", -np.inf)) & (columns.t < where.get("to_s", np.inf))
+        inside = (state.t >= where.get("from_s", -np.inf)) & (state.t < where.get("to_s", np.inf))
         shape = inside.astype(float)
         if place.fixed.get("fixed_swell"):  # rises and falls as half a sine
             length = max(where["to_s"] - where["from_s"], 1e-6)
-            shape = shape * np.sin(np.pi * np.clip((columns.t - where["from_s"]) / length, 0.0, 1.0))
-        return everywhere(columns.wrench_columns * shape[:, None, None])
+            shape = shape * np.sin(np.pi * np.clip((state.t - where["from_s"]) / length, 0.0, 1.0))
+        return shape
+
+    def columns(self, columns: State, place: Place) -> Torques:
+        return everywhere(columns.wrench_columns * self.shape(columns, place)[:, None, None])
 
     def torque(self, state: State, where: Where, parameters: Values) -> Torques:
         """As of any law; models saved before 2026-12 have no moment, their forces act at the flange's origin."""

@@ -31,6 +31,9 @@ class PayloadChange(Load):
         inside = (state.t >= where.get("from_s", -np.inf)) & (state.t < where.get("to_s", np.inf))
         return inside.astype(float)
 
+    def shape(self, state: State, place: Place) -> np.ndarray:
+        return self.active(state, place.where)
+
     def sentence(self, place: Place, parameters: tuple[Parameter, ...]) -> str:
         values = {p.name: p.value for p in parameters}
         what, back = ("taken up", "put down") if values["mass"] > 0 else ("put down", "taken up")

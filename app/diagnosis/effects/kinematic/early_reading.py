@@ -26,7 +26,8 @@ class EarlyReading(KinematicEffect):
     lasting = False
 
     def places(self, situation):
-        return [Place({"body": "instrument", "driver": "approach"})] if situation.move.any() else []
+        stops = situation.move.any() and not situation.speed.any()  # in motion it is a delay
+        return [Place({"body": "instrument", "driver": "approach"})] if stops else []
 
     def quantities(self, situation, place):
         return (Quantity("share", "1", _WIDTH, 0.0, 1.0),)

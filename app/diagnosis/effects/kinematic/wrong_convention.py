@@ -23,7 +23,7 @@ class WrongConvention(KinematicEffect):
         return ()
 
     def apply(self, cell, situation, place, values):
-        return cell.with_joints(converted_joints(cell.q, place.fixed))
+        return cell.with_joints(converted_joints(cell.q, place.fixed, situation.time))
 
     def columns(self, columns, place):
         return columns.joint[:, :, :0]

@@ -13,7 +13,7 @@ import numpy as np
 from app.diagnosis.models.dynamic.library import laws
 from app.diagnosis.observations.joint_log import Log
 from app.diagnosis.result import Finding, Parameter
-from app.diagnosis.thresholds.commands import FALLS, LATEST, LEAST, SURE
+from app.diagnosis.thresholds.commands import FALLS, LATEST, LEAST, MOVED, SURE
 from app.diagnosis.wording import note
 
 STRETCHES = 40
@@ -60,11 +60,7 @@ def lag_findings(log: Log, sliding: np.ndarray) -> tuple[Finding, ...]:
             heldout_rms_without=lag.without,
             heldout_rms_with=lag.with_it,
             alternatives=(),
-            sentence=(
-                f"Joint {lag.joint + 1} answers its command {lag.seconds:.4g} s late: the commanded position, that "
-                f"much later, misses the measured one by {lag.with_it:.2g} instead of {lag.without:.2g} "
-                f"{'m' if sliding[lag.joint] else 'rad'}."
-            ),
+            sentence=_sentence(lag, "m" if sliding[lag.joint] else "rad"),
             equation=note("law_command_delay"),
             heldout_unit="m" if sliding[lag.joint] else "rad",
         )
@@ -72,15 +68,25 @@ def lag_findings(log: Log, sliding: np.ndarray) -> tuple[Finding, ...]:
     )
 
 
+def _sentence(lag: Lag, unit: str) -> str:
+    late = lag.seconds > 0
+    said = "answers its command {:.4g} s late" if late else "is recorded {:.4g} s ahead of its command"
+    return (
+        f"Joint {lag.joint + 1} {said.format(abs(lag.seconds))}: the commanded position, that much "
+        f"{'later' if late else 'earlier'}, misses the measured one by {lag.with_it:.2g} instead of "
+        f"{lag.without:.2g} {unit}."
+    )
+
+
 def _lag(log: Log, j: int) -> Lag | None:
     assert log.commanded is not None
     t, q, command = log.t, log.q[:, j], log.commanded[:, j]
-    if np.ptp(command) < 1e-3 or np.ptp(q) < 1e-3:
-        return None
     inside = np.zeros(len(t), bool)
     for part in log.segments:  # a shifted command must come from the same run
         keep = max(1, min(int(LATEST / log.step), (part.stop - part.start) // 8))
         inside[part.start + keep : part.stop - keep] = True
+    if not inside.any() or min(np.ptp(command[inside]), np.ptp(q[inside])) < MOVED:
+        return None
     stretch = np.minimum(np.arange(len(t)) * STRETCHES // len(t), STRETCHES - 1)[inside]
     delay = _coarse(log, q, command)
     for _ in range(ITERATIONS):
@@ -90,6 +96,8 @@ def _lag(log: Log, j: int) -> Lag | None:
         if abs(step) < 1e-7:
             break
     rest, slope = _against(t, q, command, delay, inside)
+    if not slope.any():  # that much earlier the command stood still
+        return None
     scores = np.bincount(stretch, slope * rest, STRETCHES)
     std = float(np.sqrt(np.sum(scores**2) * STRETCHES / (STRETCHES - 1)) / (slope @ slope))
     none, _ = _against(t, q, command, 0.0, inside)

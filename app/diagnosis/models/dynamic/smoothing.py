@@ -15,6 +15,7 @@ import numpy as np
 from app.diagnosis.models.dynamic.filters import HALF_WIDTHS, Run, Smoothing, differentiate, noise_of
 from app.kinematics import RobotModel
 from app.kinematics.regressor import PER_LINK, torque_regressor
+from app.steps import done
 
 if TYPE_CHECKING:
     from app.diagnosis.observations.joint_log import Log
@@ -25,6 +26,7 @@ COMPARED = 700  # of them the torques are explained for
 BETTER = 0.02  # nepers of the mean residual by which a window must beat the one of least risk
 WORSE = 0.15  # beyond the best so far, wider windows are not tried
 LONGEST = 0.6  # s, of a window
+_CHOOSING, _PART_LEFT = 0.8, 0.85  # share of the work that the choice is; what each window leaves of it
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,6 +75,7 @@ def _choice(log: Log, robot: RobotModel) -> tuple[bool, int | None]:
     part = _probe(log)
     rows = np.unique(np.linspace(2, len(part.t) - 3, COMPARED).astype(int))
     best: tuple[float, tuple[bool, int | None]] | None = None
+    rest = 1.0  # how many windows are tried nobody knows before: each takes its part of what is left
     for recorded in (True, False):
         if recorded and log.qd is None:
             continue
@@ -83,6 +86,8 @@ def _choice(log: Log, robot: RobotModel) -> tuple[bool, int | None]:
                 break
             smoothing = windows.smoothing(part.step, half)
             motion = Motion(*run.motion(windows, half), smoothing, _speed_noise(smoothing))
+            rest *= _PART_LEFT
+            done(_CHOOSING * (1.0 - rest))
             score = _unexplained(motion, part.y, robot, rows) + (0.0 if half is None else BETTER)
             if best is None or score < best[0]:
                 best = (score, (recorded, half))

@@ -22,6 +22,8 @@ from scipy.linalg import get_lapack_funcs
 _CREEPING = (
     40.0  # twenty times the damping at which nothing rings: beyond, what is written down loses its digits
 )
+#: rad that it turns in a step: below, the difference of its two ways has fewer digits than their common limit.
+_SLOW = 1e-6
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,7 +88,9 @@ def _transition(h: np.ndarray, inertia: np.ndarray, spring: np.ndarray, damping:
     """(2, 2, m) what twist and its rate become over steps h (m,) without a load."""
     decay, own = 0.5 * damping / inertia, spring / inertia
     turn = np.sqrt((own - decay**2).astype(complex))  # imaginary where it creeps back instead of ringing
-    cosine = np.real(np.cos(turn * h))
-    sine = h * np.real(np.sinc(turn * h / np.pi))
-    fade = np.exp(-decay * h)
-    return fade * np.array([[cosine + decay * sine, sine], [-own * sine, cosine - decay * sine]])
+    # With the decay in the exponents nothing grows beyond what a number holds, however heavily it is damped.
+    ahead, behind = np.exp((1j * turn - decay) * h), np.exp((-1j * turn - decay) * h)
+    slow = np.abs(turn * h) < _SLOW
+    cosine = 0.5 * np.real(ahead + behind)
+    sine = np.real(np.where(slow, h * ahead, (ahead - behind) / np.where(slow, 1.0, 2j * turn)))
+    return np.array([[cosine + decay * sine, sine], [-own * sine, cosine - decay * sine]])

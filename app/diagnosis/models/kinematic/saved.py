@@ -74,8 +74,8 @@ def fingerprint(recording: StaticRecording) -> str:
     return hashlib.sha256(b"".join(np.ascontiguousarray(p).tobytes() for p in parts)).hexdigest()[:16]
 
 
-def taught_by(recording: StaticRecording, heldout_mm: float) -> Taught:
-    """Where a model was learnt."""
+def taught_by(recording: StaticRecording) -> Taught:
+    """Where a model was learnt; its held-out error [mm] is known once the model was judged."""
     q = recording.q
     low, high = q.min(axis=0), q.max(axis=0)
     chosen = np.unique(np.linspace(0, len(q) - 1, min(_POSES, len(q))).astype(int))
@@ -85,7 +85,6 @@ def taught_by(recording: StaticRecording, heldout_mm: float) -> Taught:
         still=[int(j) + 1 for j in np.flatnonzero(high - low < _STILL)],
         poses=np.round(q[chosen], 6).tolist(),
         rows=fingerprint(recording),
-        heldout_rms=heldout_mm,
         unit="mm",
     )
 

@@ -37,6 +37,7 @@ class Situation:
         declared_compliance: (n,) [rad/Nm] from the recording's header, or None.
         approach: (m, n) sign of each joint's last move; 0 before the first.
         move: (m, n) the change since the row before [rad or m].
+        speed: (m, n) of each joint, where the recording was made in motion; else zeros [rad/s or m/s].
         time: (m,) since the first row [s], or the row's number where no time was recorded.
         time_unit: "s" or "row".
         temperature: (m,) above the first row's [K], or None.
@@ -56,6 +57,7 @@ class Situation:
     declared_compliance: np.ndarray | None
     approach: np.ndarray
     move: np.ndarray
+    speed: np.ndarray
     time: np.ndarray
     time_unit: str
     temperature: np.ndarray | None
@@ -110,8 +112,10 @@ def situation_for(
     payload_com: np.ndarray | None = None,
     declared_compliance: np.ndarray | None = None,
     time: np.ndarray | None = None,
+    speed: np.ndarray | None = None,
     temperature: np.ndarray | None = None,
     order: np.ndarray | None = None,
+    keep: np.ndarray | None = None,
     instrument: str = "points",
     reflectors: int = 1,
 ) -> Situation:
@@ -123,10 +127,25 @@ def situation_for(
         payload: (m,) [kg] known mass at the flange.
         payload_com: (3,) [m] its centre in the flange.
         time: (m,) [s].
+        speed: (m, n) of the joints, in a recording made in motion.
         temperature: (m,) [degC].
+        keep: (m,) True for the rows that are worked on, all without it; moves and times are seen among all rows, and of
+            very many nothing else is worked out.
     """
     chain = robot.chain
     m = len(q)
+    approach, move = approach_signs(q, np.zeros(m, int) if sessions is None else sessions)
+    order = np.arange(1, m + 1) if order is None else order
+    unit = "row" if time is None else "s"
+    since = np.arange(m, dtype=float) if time is None else time - time[0]
+    temperature = None if temperature is None else temperature - temperature[0]
+    speed = np.zeros(q.shape) if speed is None else speed
+    if keep is not None:
+        q, approach, move = q[keep], approach[keep], move[keep]
+        order, since, speed = order[keep], since[keep], speed[keep]
+        torque, payload, temperature = (
+            None if x is None else x[keep] for x in (torque, payload, temperature)
+        )
     frames = chain.frames(q)
     leaning = None
     source = "measured"  # in holding sign already, see sensed.py
@@ -140,7 +159,6 @@ def situation_for(
             torque = torque + payload_torques(chain, frames, payload, com)
         # An upright joint carries nothing: what rounding leaves of it has a sign at random, and no backlash follows.
         torque = np.where(np.abs(torque) > ROUNDING * np.abs(torque).max(initial=0.0), torque, 0.0)
-    approach, move = approach_signs(q, np.zeros(m, int) if sessions is None else sessions)
     return Situation(
         chain=chain,
         links=link_axes(chain),
@@ -152,10 +170,11 @@ def situation_for(
         declared_compliance=declared_compliance,
         approach=approach,
         move=move,
-        time=np.arange(m, dtype=float) if time is None else time - time[0],
-        time_unit="row" if time is None else "s",
-        temperature=None if temperature is None else temperature - temperature[0],
-        order=np.arange(1, m + 1) if order is None else order,
+        speed=speed,
+        time=since,
+        time_unit=unit,
+        temperature=temperature,
+        order=order,
         payload=payload,
         payload_com=payload_com,
         instrument=instrument,

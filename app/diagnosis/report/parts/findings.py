@@ -8,7 +8,16 @@ from typing import Any
 from markupsafe import Markup
 
 from app.diagnosis.quantity import quantity
-from app.diagnosis.report.budget import budget, family_name, folded_sentence, law_share, percent, shown
+from app.diagnosis.report.budget import (
+    budget,
+    family_name,
+    folded_sentence,
+    law_share,
+    percent,
+    shared_note,
+    shown,
+    takes_away,
+)
 from app.diagnosis.report.drawing.palette import OTHER, colour
 from app.diagnosis.report.parts.case import Case
 from app.diagnosis.report.wording import (
@@ -31,7 +40,7 @@ def findings(case: Case) -> Markup | str:
         _group(case, s.members, s.small)
         | {
             "name": family_name(s.family, case.language),
-            "amount": measure(s.amount, of.unit),
+            "amount": takes_away(s, of),
             "share": case.t("found.comes_back", share=percent(s.share)),
             "colour": colour(s.family),
         }
@@ -42,7 +51,11 @@ def findings(case: Case) -> Markup | str:
         groups.append(
             _group(case, of.others, ()) | {"name": said, "amount": "", "share": "", "colour": OTHER}
         )
-    return case.section("findings.html", groups=groups) if groups else ""
+    return (
+        case.section("findings.html", groups=groups, note=shared_note(shown(of), of, case.language))
+        if groups
+        else ""
+    )
 
 
 def _group(case: Case, members: Sequence[int], small: Sequence[int]) -> dict[str, Any]:

@@ -7,6 +7,7 @@ from functools import lru_cache
 
 import numpy as np
 
+from app.errors import InputError
 from app.proof.generator.effects.term import Term, same_place
 from app.proof.generator.motion.columns import Thin, inertial_columns, places, term_columns, thinned
 from app.proof.generator.motion.making import MadeMotion
@@ -63,7 +64,10 @@ def motion_visibility(made: MadeMotion, index: int, *, limit: float | None) -> V
     for candidate in places(thin):
         if same_place(candidate, term):
             continue
-        columns = project(term_columns(thin, others, candidate))
+        try:
+            columns = project(term_columns(thin, others, candidate))
+        except InputError:  # this arm cannot have it there: it is no rival
+            continue
         gap = gap_of(columns, left) * thin.weight
         gaps.append(
             {

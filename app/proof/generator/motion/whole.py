@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
+from scipy.linalg import svd
 
 from app.errors import InputError
 from app.proof.generator.arm import Arm
@@ -263,7 +264,9 @@ def _expected(first: MadeMotion, terms: Sequence[Term], second: MadeMotion, carr
     used = np.hstack([inertial_columns(there), *(term_columns(there, [], t) for t in terms[:count])])
     length = np.linalg.norm(fitted, axis=0)
     length[length == 0] = 1.0
-    _, s, v = np.linalg.svd(fitted / length * here.weight, full_matrices=False)
+    # By the triangular factor: LAPACK's quick method does not converge on some of these tall matrices.
+    triangle = np.linalg.qr(fitted / length * here.weight, mode="r")
+    _, s, v = svd(triangle, full_matrices=False, lapack_driver="gesvd")
     v = v[s > RANK * s[0]] / s[s > RANK * s[0], None]
     moved = (used / length[: used.shape[1]]) @ v[:, : used.shape[1]].T
     added = _memory(first.plan) * np.sum(moved**2, axis=1).reshape(-1, first.cell.arm.n)

@@ -1,0 +1,130 @@
+"""On a phone: every key of the top line has a place, and the key that is pressed next is in view."""
+
+import numpy as np
+import pytest
+
+from app.geometry import Pose, exp_so3
+from app.kinematics import solve_ik
+from app.scene.camera import whole
+from app.units import from_deg
+from tests.browser.test_training import TILTS
+
+pytestmark = pytest.mark.browser
+
+PHONE, SMALL = {"width": 390, "height": 844}, {"width": 1024, "height": 768}
+TARGET_PX = 44.0
+
+#: The first main key of the open screen, where it does not stand wholly in the work's window, below its tabs.
+_HIDDEN = """() => {
+    const work = document.getElementById("work").getBoundingClientRect();
+    const tabs = document.getElementById("tabs").getBoundingClientRect();
+    return [...document.querySelectorAll("#screens .w button.main")].filter((one) => one.checkVisibility())
+        .slice(0, 1).map((one) => [one.textContent, one.getBoundingClientRect()])
+        .filter(([, box]) => box.top < tabs.bottom || box.bottom > work.bottom + 0.5)
+        .map(([words, box]) => [words, box.top, box.bottom, work.bottom]);
+}"""
+
+
+def what_hides(page):
+    """What `_HIDDEN` finds once the page has come to rest: it scrolls there, on a busy machine not at once."""
+    for _ in range(50):
+        if not (found := page.evaluate(_HIDDEN)):
+            break
+        page.wait_for_timeout(100)
+    return found
+
+
+def test_theme_and_sound_have_keys_beside_home(sit_down, brisk):
+    person = sit_down("jby50", screen=PHONE, touch=True)
+    page = person.page
+    for key in ("theme", "sound"):
+        box = page.locator(f"#jog #{key}").bounding_box()
+        assert min(box["width"], box["height"]) >= TARGET_PX, (key, box)
+    page.locator("#theme").click()
+    page.locator("html[data-theme=dark]").wait_for(state="attached")
+    page.locator("#sound").click()
+    assert page.locator("#sound").get_attribute("aria-pressed") == "true"
+    page.set_viewport_size(SMALL)
+    page.locator("#bar #theme").wait_for()
+    assert page.locator("#bar #sound").is_visible()
+
+
+def test_the_key_that_is_pressed_next_comes_into_view(sit_down, brisk):
+    person = sit_down("jby50", screen=PHONE, touch=True)
+    person.page.locator("#switch button[data-part=work]").click()
+    first, second = person.state.steps[:2]
+    person.takes(first)
+    person.until(lambda: person.view("deciding")._next_touch.proposal is not None, "the proposal")
+    person.moves("Go to the ghost")
+    person.moves("Touch the spike")
+    person.page.locator("#screens .w button.main", has_text=f"Record {second.title}").wait_for()
+    assert what_hides(person.page) == []
+
+
+def test_an_exercise_is_begun_without_scrolling(sit_down, brisk):
+    person = sit_down("jby50", screen=PHONE, touch=True)
+    person.page.locator("#switch button[data-part=work]").click()
+    person.screen("training")
+    person.page.get_by_role("button", name="Begin", exact=True).wait_for()
+    assert person.page.evaluate(_HIDDEN) == []
+
+
+def touch(context, tilt):
+    """The arm stands at the spike, tilted so, without a way."""
+    world, home = context.world, context.model.home
+    turned = world.hand(home).rotation @ exp_so3(from_deg(np.array(tilt, float)))
+    near = Pose.of(turned, world.p_base_spike_drawn + np.array([0.0, 0.0, 0.03]))
+    q = solve_ik(context.model, near, home, T_flange_tool=world.T_flange_tool_hand, max_steps=300).q
+    context.drive.show(world.touch(q, context.rng).q)
+    context.drive.settle()
+    context.refresh()
+
+
+def test_under_an_exercises_task_too_the_result_is_decided_without_scrolling(sit_down, brisk):
+    person = sit_down("jby50", screen=PHONE, touch=True)
+    person.page.locator("#switch button[data-part=work]").click()
+    person.screen("training")
+    person.choose(
+        "Exercise", next(t for t, e in person.view("showing")._titles.items() if e.key == "first_tool")
+    )
+    person.until(lambda: person.context.exercise == "first_tool", "the choice")
+    person.click("Begin")
+    person.until(lambda: person.state.running is not None and person._idle(), "the exercise")
+    for tilt in TILTS:
+        person.does(lambda tilt=tilt: touch(person.context, tilt))
+        person.does(lambda: person.view("deciding")._record_next())
+    person.click("Calculate")
+    person.page.get_by_role("button", name="Accept", exact=True).wait_for()
+    assert what_hides(person.page) == []
+
+
+def test_of_several_keys_that_appear_the_one_that_is_pressed_first_comes_into_view(sit_down, brisk):
+    """A recording that was searched brings a switch under its verdict, and a report far below."""
+    person = sit_down("ur10e", screen=PHONE, touch=True)
+    person.page.locator("#switch button[data-part=work]").click()
+    person.context.rng = np.random.default_rng(4)
+    person.screen("compare")
+    person.click("Record with a hidden fault")
+    person.page.get_by_role("button", name="Find what is missing", exact=True).wait_for(timeout=60_000)
+    person.click("Find what is missing")
+    switch = person.page.get_by_role("button", name="Put it into the simulation", exact=True)
+    switch.wait_for(timeout=60_000)
+    assert what_hides(person.page) == []
+    light, tabs = person.page.get_by_test_id("compare-verdict"), person.page.locator("#tabs")
+    assert light.bounding_box()["y"] >= tabs.bounding_box()["y"] + tabs.bounding_box()["height"]
+
+
+def test_the_scene_is_framed_for_the_window_it_begins_in(sit_down, brisk):
+    person = sit_down("jby50", screen=SMALL)
+    person.scene_is_there()
+    stage = person.context.stage
+    eye, centre = whole(person.context.world)
+
+    def away():
+        looks = stage._server.initial_camera
+        return np.linalg.norm(np.subtract(looks.position, looks.look_at)) / np.linalg.norm(eye - centre)
+
+    assert stage.eyes.aspect < 0.75
+    person.until(
+        lambda: abs(away() - 0.8 / stage.eyes.aspect) < 0.01, f"the eye farther away than {away():.2f}"
+    )

@@ -1,0 +1,53 @@
+"""The key that is pressed next stands out: to the ghost, to the spike, record; then the strokes; then calculate."""
+
+import dataclasses
+
+from app.session.actions import ChooseMode
+from tests.desk import until
+
+
+def standing_out(desk):
+    """Which keys of the wizard are of the first rank."""
+    tool = desk.tool
+    keys = {
+        "ghost": tool._next_touch.go_button,
+        "hand": tool._assist,
+        "record": tool._record,
+        "calculate": tool._calculate,
+    }
+    desk.idle()
+    return [name for name, key in keys.items() if key.visible and key.rank == "main"]
+
+
+def proposed(desk):
+    until(lambda: desk.tool._next_touch.proposal is not None, "the proposal")
+    desk.idle()
+
+
+def test_one_key_after_the_other_stands_out_to_the_end(desk):
+    desk.fresh(robot="ur10e")
+    desk.does(lambda: desk.context.do(ChooseMode("touch_zx", 4)))
+    for _ in range(4):
+        proposed(desk)
+        assert standing_out(desk) == ["ghost"]
+        desk.moves(desk.tool._next_touch.go)
+        if desk.context.world.off(desk.q, ("touch",)) > desk.context.world.contact_distance:
+            assert standing_out(desk) == ["hand"]
+        if standing_out(desk) == ["record"]:  # what is said names the key that stands out
+            assert desk.said[1] == f"The tip touches the spike. Record {desk.state.missing[0].title} now."
+        desk.moves(desk.tool._help)
+        assert standing_out(desk) == ["record"]
+        desk.does(desk.tool._record_next)
+    while desk.state.missing:
+        assert standing_out(desk) == ["hand"]
+        desk.moves(desk.tool._help)
+        assert standing_out(desk) == ["record"], desk.said
+        desk.does(desk.tool._record_next)
+    assert standing_out(desk) == ["calculate"]
+
+
+def test_without_help_the_record_key_stands_out_and_tells_nothing_of_contact(desk):
+    desk.fresh(robot="ur10e")
+    bare = dataclasses.replace(desk.context.aids, touch=False, next_touch=False, light=False, distance=False)
+    desk.does(lambda: desk.context.allow(bare))
+    assert standing_out(desk) == ["record"]
