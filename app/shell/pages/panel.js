@@ -2,6 +2,7 @@
 import { say } from "./link.js";
 import { dropzone } from "./files.js";
 import { t } from "./frame.js";
+import { comeUp, stay } from "./inview.js";
 
 const known = new Map(); // id -> {data, element, inside, update}
 let active = sessionStorage.getItem("teachframe.screen") || "tool";
@@ -26,16 +27,6 @@ function field(data, input, look = "") {
   input.setAttribute("aria-label", data.label); // the label alone: a select's own text would count as part of it
   label.append(make("span"), input);
   return label;
-}
-
-// The key that is pressed next, the first of its screen, comes up from below the edge; who has scrolled past it is left
-// where he reads.
-function comeUp(screen) {
-  requestAnimationFrame(() => {
-    const key = [...(screen?.querySelectorAll("button.main") ?? [])].find((one) => one.checkVisibility());
-    const edge = document.getElementById("work").getBoundingClientRect().bottom;
-    if (key && key.getBoundingClientRect().bottom > edge) key.closest(".w").scrollIntoView({ block: "nearest" });
-  });
 }
 
 const KINDS = {
@@ -272,7 +263,7 @@ export function openScreen(key, asked = false) {
   sessionStorage.setItem("teachframe.screen", key);
   tabs();
   document.getElementById("work").scrollTop = 0;
-  if (asked) comeUp(document.getElementById("screen-" + key));
+  asked ? comeUp(document.getElementById("screen-" + key)) : stay();
 }
 
 export function update(message) {
