@@ -2,25 +2,29 @@
 
 Evidence takes the noise for known. Where a model is not complete, what it leaves hangs together and the evidence of
 small laws is too high: there a law stays only if the log is predicted worse without it. And whatever the evidence
-prefers, a description that predicts plainly better is taken instead: masses, friction, offsets and rotors by plain
-least squares are among those compared, the same held ever closer to the description, and the description itself. All
-are weighed as they will be solved: by the noise of plain least squares.
+prefers, a description that predicts plainly better is taken instead: masses, friction, offsets and rotors of all
+joints, each within the trust that it has before anything is measured, alone or with the other laws beside them, and the
+description itself. All are weighed as they will be solved: by the noise of plain least squares.
+
+Which description is taken is asked of whole parts of the log, a fifth at once: another log is farther away than any gap
+between two stretches, and masses that a short motion hardly tells fit every gap.
 
 Source: Geisser (1975), The predictive sample reuse method, JASA 70; stretches because neighbours hang together.
 """
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.linalg import LinAlgError, cho_factor, cho_solve
 
 from app.diagnosis.dynamic.families import ordinary
-from app.diagnosis.dynamic.solution import FOLDS, folds_of, plain_noise
+from app.diagnosis.dynamic.solution import FOLDS, folds_of, parts_of, plain_noise
 from app.diagnosis.regression.evidence import Selection
 from app.diagnosis.regression.triangular import inverse_of
-from app.diagnosis.thresholds.predicting import CLOSER, PLAINLY, WIDE, WORTH
+from app.diagnosis.thresholds.predicting import PLAINLY, TRUSTED, WORTH
 
 if TYPE_CHECKING:
     from app.diagnosis.dynamic.study import Study
@@ -37,38 +41,38 @@ def by_prediction(study: Study, unfinished: bool) -> Selection:
     """
     chosen = study.selection
     if study.prior is not None:
-        return Crossed(study, chosen).pruned(chosen) if unfinished else chosen
-    if not unfinished and study.state.joints > 1:
-        return chosen
-    plain = dict.fromkeys(ordinary(study), WIDE)
+        return Crossed(study, chosen, folds_of(len(study.y))).pruned(chosen) if unfinished else chosen
+    every = dict.fromkeys(ordinary(study), TRUSTED)
     kept = {g: v for g, v in chosen.items() if g in study.evidence.kept}
-    crossed = Crossed(study, {**chosen, **plain})
-    own, least = crossed.total(chosen), crossed.total({**kept, **plain})
-    if unfinished or least < (1.0 - PLAINLY) * own:
-        starts = [chosen, {**_beside(study, chosen, plain), **plain}]
-        closer = [{**kept, **dict.fromkeys(plain, width)} for width in CLOSER]
-        found = [*(crossed.pruned(s) for s in starts), {**kept, **plain}, *closer, kept]
-        best = min(found, key=crossed.total)
-        first = found[0]
-        return best if crossed.total(best) < (1.0 - PLAINLY) * crossed.total(first) else first
-    return chosen
+    alone, beside = {**kept, **every}, {**_beside(study, chosen, every), **every}
+    count, widest = len(study.y), {**chosen, **every}
+    far = Crossed(study, widest, parts_of(count))
+    if not unfinished and min(map(far.total, [alone, beside])) >= (1.0 - PLAINLY) * far.total(chosen):
+        return chosen
+    first = Crossed(study, widest, folds_of(count)).pruned(chosen)
+    best = min([far.pruned(beside, every), alone, kept], key=far.total)
+    return best if far.total(best) < (1.0 - PLAINLY) * far.total(first) else first
 
 
-def _beside(study: Study, chosen: Selection, plain: Selection) -> Selection:
+def _beside(study: Study, chosen: Selection, families: Collection[int]) -> Selection:
     """What of a selection stays beside whole families: nothing whose columns they have."""
-    own = {c for g in plain for c in study.group(g).columns.tolist()}
+    own = {c for g in families for c in study.group(g).columns.tolist()}
     return {g: v for g, v in chosen.items() if not own & set(study.group(g).columns.tolist())}
 
 
 class Crossed:
-    """Held-out errors of selections within some groups, every sample of a joint weighted alike."""
+    """Held-out errors of selections within some groups, every sample of a joint weighted alike.
 
-    def __init__(self, study: Study, widest: Selection):
+    Args:
+        widest: all groups that are asked.
+        folds: (M,) turn in which each row is left out.
+    """
+
+    def __init__(self, study: Study, widest: Selection, folds: np.ndarray):
         self.study = study
         columns = sorted({c for g in widest for c in study.group(g).columns.tolist()})
         self.at = {c: k for k, c in enumerate(columns)}
         design = study.design
-        folds = folds_of(len(study.y))
         self.noise, left = plain_noise(study)
         #: Rows of one joint that count: slow noise hangs together.
         self.counts = len(study.y) * float(np.mean((left / self.noise) ** 2))
@@ -191,13 +195,18 @@ class Crossed:
         moved = np.isin(columns, [self.at[c] for g in prior for c in self.study.group(g).columns.tolist()])
         return 0.5 * float(weights[moved] @ weights[moved]) / self.counts
 
-    def pruned(self, selection: Selection) -> Selection:
-        """Without the laws that the log is predicted no worse without, the least worthy first."""
+    def pruned(self, selection: Selection, stays: Collection[int] = ()) -> Selection:
+        """Without the laws that the log is predicted no worse without, the least worthy first.
+
+        Args:
+            stays: what is not asked; without friction, factors that were fitted beside it would stand for it.
+        """
         now = dict(selection)
         while True:
             fixed = (
                 set(self.study.rules.bound(now))
                 | self.study.evidence.kept
+                | set(stays)
                 | {g for g in now if self._passing(g)}
             )
             worth = self.nepers(now)

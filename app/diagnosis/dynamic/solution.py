@@ -180,6 +180,11 @@ def folds_of(count: int) -> np.ndarray:
     return (np.arange(count) * BLOCKS // max(count, 1)) % FOLDS
 
 
+def parts_of(count: int) -> np.ndarray:
+    """(count,) the same where a whole part of the log is left out at once."""
+    return np.arange(count) * FOLDS // max(count, 1)
+
+
 class _Turns:
     """Products of the whitened columns stretch by stretch: what any part of them predicts where it has not learnt."""
 
