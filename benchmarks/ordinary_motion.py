@@ -55,14 +55,14 @@ class Line:
 
 def compare(folder: Path) -> list[Line]:
     """Every log of a folder held out by stretches of time, and judged by what every other log taught."""
-    logs = [_read(p) for p in sorted(folder.glob("run_*.csv"))]
+    logs = [read(p) for p in sorted(folder.glob("run_*.csv"))]
     out: list[Line] = []
     for log in logs:
         found = diagnose(log.table, log.robot)
         model = msgspec.convert(dict(found.model), SavedModel)
         name = f"{folder.name}/{log.path.stem}"
         own = min(
-            _rms(heldout(columns(log.samples.state, r), log.samples.y, _folds(log))) for r in (False, True)
+            rms(heldout(columns(log.samples.state, r), log.samples.y, _folds(log))) for r in (False, True)
         )
         out.append(
             Line(name, "itself, held out", found.before.fit_rms, found.after.heldout_rms, own, found.verdict)
@@ -72,7 +72,7 @@ def compare(folder: Path) -> list[Line]:
                 continue
             before, after = judged(other.table, other.robot, model).qualities
             peer = min(
-                _rms(
+                rms(
                     other.samples.y
                     - columns(other.samples.state, r) @ fit(columns(log.samples.state, r), log.samples.y)
                 )
@@ -84,7 +84,8 @@ def compare(folder: Path) -> list[Line]:
     return out
 
 
-def _read(path: Path) -> Log:
+def read(path: Path) -> Log:
+    """A log with its windows."""
     table = read_table(path)
     robot = robot_for(table)
     log, motion, _ = ready(table, robot)
@@ -95,7 +96,8 @@ def _folds(log: Log) -> np.ndarray:
     return time_folds(len(log.samples.y))
 
 
-def _rms(residual: np.ndarray) -> float:
+def rms(residual: np.ndarray) -> float:
+    """Root mean square."""
     return float(np.sqrt(np.mean(residual**2)))
 
 

@@ -16,6 +16,7 @@ import tempfile
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Protocol
 
 from app.units import mm
 from benchmarks._calibration.peer import calibrate, carried
@@ -108,7 +109,17 @@ def _divided(
     return [body[k] for k in own], [body[k] for k in others]
 
 
-def summary(found: Sequence[Part]) -> list[tuple[str, ...]]:
+class Rated(Protocol):
+    """A part and its error over the peer's."""
+
+    @property
+    def recording(self) -> str: ...
+
+    @property
+    def ratio(self) -> float: ...
+
+
+def summary(found: Sequence[Rated]) -> list[tuple[str, ...]]:
     """A line a recording and one of all: how many parts, the mean ratio, the largest, how many are worse by 5%."""
     names = [*dict.fromkeys(p.recording for p in found), "all"]
     out = []

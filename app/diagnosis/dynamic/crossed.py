@@ -22,6 +22,7 @@ from scipy.linalg import LinAlgError, cho_factor, cho_solve
 
 from app.diagnosis.dynamic.families import ordinary
 from app.diagnosis.dynamic.solution import FOLDS, folds_of, parts_of, plain_noise
+from app.diagnosis.models.dynamic.library import Candidate
 from app.diagnosis.regression.evidence import Selection
 from app.diagnosis.regression.triangular import inverse_of
 from app.diagnosis.thresholds.predicting import PLAINLY, TRUSTED, WORTH
@@ -43,15 +44,21 @@ def by_prediction(study: Study, unfinished: bool) -> Selection:
     if study.prior is not None:
         return Crossed(study, chosen, folds_of(len(study.y))).pruned(chosen) if unfinished else chosen
     every = dict.fromkeys(ordinary(study), TRUSTED)
-    kept = {g: v for g, v in chosen.items() if g in study.evidence.kept}
+    events = [g for g in chosen if _event(study.label(g))]
+    kept = {g: v for g, v in chosen.items() if g in study.evidence.kept or g in events}
     alone, beside = {**kept, **every}, {**_beside(study, chosen, every), **every}
     count, widest = len(study.y), {**chosen, **every}
-    far = Crossed(study, widest, parts_of(count))
+    far = Crossed(study, widest, parts_of(count), events)
     if not unfinished and min(map(far.total, [alone, beside])) >= (1.0 - PLAINLY) * far.total(chosen):
         return chosen
     first = Crossed(study, widest, folds_of(count)).pruned(chosen)
-    best = min([far.pruned(beside, every), alone, kept], key=far.total)
+    best = min([far.pruned(beside, [*every, *events]), alone, kept], key=far.total)
     return best if far.total(best) < (1.0 - PLAINLY) * far.total(first) else first
+
+
+def _event(candidate: Candidate) -> bool:
+    """True for what happened between two times, and is told of."""
+    return candidate.law.windowed and candidate.law.finding
 
 
 def _beside(study: Study, chosen: Selection, families: Collection[int]) -> Selection:
@@ -66,29 +73,33 @@ class Crossed:
     Args:
         widest: all groups that are asked.
         folds: (M,) turn in which each row is left out.
+        known: groups of the study's selection whose torque is taken as it was fitted: an event that lies in what is
+            left out is foretold by nothing, and is no reason for or against anything else.
     """
 
-    def __init__(self, study: Study, widest: Selection, folds: np.ndarray):
+    def __init__(self, study: Study, widest: Selection, folds: np.ndarray, known: Collection[int] = ()):
         self.study = study
-        columns = sorted({c for g in widest for c in study.group(g).columns.tolist()})
+        self.known = frozenset(known)
+        columns = sorted({c for g in widest if g not in self.known for c in study.group(g).columns.tolist()})
         self.at = {c: k for k, c in enumerate(columns)}
         design = study.design
         self.noise, left = plain_noise(study)
         #: Rows of one joint that count: slow noise hangs together.
         self.counts = len(study.y) * float(np.mean((left / self.noise) ** 2))
         self.size = len(columns)
+        taken = _fitted(study, self.known)
         self.parts = []  # of each joint: its columns' places, products by fold, right sides and sums of squares
         for j in range(design.joints):
             here = [k for k, c in enumerate(design.at[j].tolist()) if c in self.at]
             ids = np.array([self.at[int(design.at[j][k])] for k in here], int)
-            raw, y = design.raw[j][:, here], design.y[:, j]
+            raw, y = design.raw[j][:, here], design.y[:, j] - taken[:, j]
             gram = np.stack([raw[folds == k].T @ raw[folds == k] for k in range(FOLDS)])
             right = np.stack([raw[folds == k].T @ y[folds == k] for k in range(FOLDS)])
             self.parts.append(
                 (ids, gram, right, np.array([y[folds == k] @ y[folds == k] for k in range(FOLDS)]))
             )
         self._sum()
-        self._known: dict[tuple, np.ndarray] = {}
+        self._errors_of: dict[tuple, np.ndarray] = {}
 
     def _sum(self) -> None:
         self.gram, self.right = np.zeros((FOLDS, self.size, self.size)), np.zeros((FOLDS, self.size))
@@ -101,9 +112,9 @@ class Crossed:
     def errors(self, selection: Selection) -> np.ndarray:
         """(n,) sum of squares of each joint over the stretches left out [Nm^2]."""
         key = tuple(sorted(selection.items()))
-        if key not in self._known:
-            self._known[key] = self._errors(selection)
-        return self._known[key]
+        if key not in self._errors_of:
+            self._errors_of[key] = self._errors(selection)
+        return self._errors_of[key]
 
     def _errors(self, selection: Selection) -> np.ndarray:
         columns, precision = self._inside(selection)
@@ -117,6 +128,8 @@ class Crossed:
         """(a,) columns of a selection, and (a,) prior precision of their weights."""
         found: dict[int, float] = {}
         for g, gamma in selection.items():
+            if g in self.known:
+                continue
             for c in self.study.group(g).columns.tolist():
                 found[self.at[c]] = max(found.get(self.at[c], 0.0), gamma)
         columns = np.array(sorted(found), int)
@@ -145,7 +158,8 @@ class Crossed:
         """
         columns, precision = self._inside(selection)
         count = dict.fromkeys(columns.tolist(), 0)
-        own = {g: [self.at[c] for c in self.study.group(g).columns.tolist()] for g in selection}
+        asked = [g for g in selection if g not in self.known]
+        own = {g: [self.at[c] for c in self.study.group(g).columns.tolist()] for g in asked}
         for some in own.values():
             for c in some:
                 count[c] += 1
@@ -230,6 +244,13 @@ class Crossed:
             if self.study.label(g).law.windowed:
                 kinds.setdefault(self.study.label(g).law.key, []).append(g)
         return [*((g,) for g in open_ones), *(tuple(some) for some in kinds.values() if len(some) > 1)]
+
+
+def _fitted(study: Study, groups: Collection[int]) -> np.ndarray:
+    """(M, n) torque of some groups of the study's selection [Nm]."""
+    found = study.posterior()
+    own = np.isin(found.columns, [c for g in groups for c in study.group(g).columns.tolist()])
+    return study.design.prediction(found.columns[own], found.weights[own])
 
 
 def _nepers(errors: np.ndarray) -> float:
