@@ -22,7 +22,6 @@ from scipy.linalg import LinAlgError, cho_factor, cho_solve
 
 from app.diagnosis.dynamic.families import ordinary
 from app.diagnosis.dynamic.solution import FOLDS, folds_of, parts_of, plain_noise
-from app.diagnosis.models.dynamic.library import Candidate
 from app.diagnosis.regression.evidence import Selection
 from app.diagnosis.regression.triangular import inverse_of
 from app.diagnosis.thresholds.predicting import PLAINLY, TRUSTED, WORTH
@@ -44,7 +43,7 @@ def by_prediction(study: Study, unfinished: bool) -> Selection:
     if study.prior is not None:
         return Crossed(study, chosen, folds_of(len(study.y))).pruned(chosen) if unfinished else chosen
     every = dict.fromkeys(ordinary(study), TRUSTED)
-    events = [g for g in chosen if _event(study.label(g))]
+    events = [g for g in chosen if not study.label(g).law.lasting]
     kept = {g: v for g, v in chosen.items() if g in study.evidence.kept or g in events}
     alone, beside = {**kept, **every}, {**_beside(study, chosen, every), **every}
     count, widest = len(study.y), {**chosen, **every}
@@ -54,11 +53,6 @@ def by_prediction(study: Study, unfinished: bool) -> Selection:
     first = Crossed(study, widest, folds_of(count)).pruned(chosen)
     best = min([far.pruned(beside, [*every, *events]), alone, kept], key=far.total)
     return best if far.total(best) < (1.0 - PLAINLY) * far.total(first) else first
-
-
-def _event(candidate: Candidate) -> bool:
-    """True for what happened between two times, and is told of."""
-    return candidate.law.windowed and candidate.law.finding
 
 
 def _beside(study: Study, chosen: Selection, families: Collection[int]) -> Selection:
