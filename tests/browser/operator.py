@@ -23,6 +23,10 @@ _PROJECT = """([x, y, z]) => {
     return [at.x + box.x + (point.x + 1) / 2 * box.width, at.y + box.y + (1 - point.y) / 2 * box.height];
 }"""
 
+#: What the keys say that stand out on the page.
+_LOUD = """() => [...document.querySelectorAll("button.main:not(:disabled)")]
+    .filter((one) => one.checkVisibility()).map((one) => one.textContent)"""
+
 
 class Operator:
     """One person at one page.
@@ -201,7 +205,8 @@ class Operator:
         self.until(lambda: self.context.stage.eyes.known, "the scene's page to say how large it is")
 
     def picture(self, name):
-        """Leaves a screenshot for people to look at."""
+        """Leaves a screenshot for people to look at, on which one key at most stands out."""
         SCREENSHOTS.mkdir(exist_ok=True)
         self.page.wait_for_timeout(600)
+        assert len(loud := self.page.evaluate(_LOUD)) <= 1, f"more than one key is the next: {loud}"
         self.page.screenshot(path=str(SCREENSHOTS / f"{name}.png"))

@@ -40,7 +40,9 @@ def bend(person):
 
 def test_a_person_finds_a_hidden_tool_by_following_the_proposals(sit_down, brisk):
     person = sit_down("jby50")
-    person.context.rng = np.random.default_rng(20261201)  # one good tool in some hundred is told to be touched again
+    person.context.rng = np.random.default_rng(
+        20261201
+    )  # one good tool in some hundred is told to be touched again
     hidden = bend(person)
     person.scene_is_there()
     person.picture("wizard_1_start")
