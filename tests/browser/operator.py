@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
+from app.figures import NO_BREAK
 from app.session.actions import ChooseRobot
 from app.session.motion.drive import MOTIONS
 from app.session.owners import owner_of
@@ -180,8 +181,10 @@ class Operator:
             line.click()
 
     def seen(self, testid):
-        """What a place on the page says."""
-        return self.page.get_by_test_id(testid).locator("visible=true").first.inner_text()
+        """What a place on the page says; a space that does not break is a space."""
+        return (
+            self.page.get_by_test_id(testid).locator("visible=true").first.inner_text().replace(NO_BREAK, " ")
+        )
 
     def reads(self, testid, words):
         """Waits until a place on the page says so."""
