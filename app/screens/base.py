@@ -200,6 +200,7 @@ class _View:
             middle = run.drawn_tips().mean(axis=0)
             run.drawing.label("miss", f"{miss} mm", middle + np.array([0.0, 0.0, 0.12]))
             self._context.stage.view("whole")  # both arms and where they meet
+            self.show()
         self._context.say("good", t("base.met", miss=miss, predicted=predicted))
 
     # What is shown -----------------------------------------------------------------------------------------
@@ -224,6 +225,8 @@ class _View:
         self._verdict.visible = self._result.visible = self._give.visible = run.relation is not None
         # What was found comes first; the procedure that led there stands below it.
         self._work.order = self._place if run.relation is None else self._close_button.order - 0.5
+        # Once they have met, what was found is taken away.
+        self._send.rank, self._give.rank = ("main", "plain") if run.meeting is None else ("plain", "main")
         self._send.visible = run.relation is not None and run.relation.T_base1_base2 is not None
 
     def numbers(self) -> None:

@@ -35,7 +35,7 @@ export function stay() {
 
 // Who presses a key has read what he wanted to read.
 work.addEventListener("click", (event) => {
-  if (event.target.closest(".w button.main")) followed = event.target.closest(".screen");
+  if (event.target.closest(".w button")) followed = event.target.closest(".screen");
 });
 const grown = new ResizeObserver(look);
 grown.observe(work);
