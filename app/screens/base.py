@@ -67,10 +67,10 @@ class _View:
         self._send = ui.add_button(t("base.send"), visible=False)
         context.clicked(self._send, self._meet)
         self._miss = ui.add_html("", visible=False)
-        self._result = ui.add_html("", visible=False)
         given = {t("base.export"): send_relation, t("base.report"): send_page}
         self._give = ui.add_buttons(t("base.give"), tuple(given), visible=False)
         context.chosen(self._give, lambda label: self._run and given[label](context, self._run))
+        self._result = ui.add_html("", visible=False)
         self._close_button = ui.add_button(t("base.close"), visible=False, rank="plain")
         context.clicked(self._close_button, self._leave_cell)
 
