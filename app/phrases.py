@@ -18,6 +18,8 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
+from app.figures import unsigned
+
 FALLBACK = "en"
 #: Key of the text that joins several phrases of one field.
 _BETWEEN = "list.between"
@@ -52,7 +54,8 @@ class Texts:
             found = self.languages[FALLBACK][key]
         if not fields:
             return found
-        return found.format(**{name: self._worded(value, language) for name, value in fields.items()})
+        worded = {name: self._worded(value, language) for name, value in fields.items()}
+        return unsigned(found.format(**worded))
 
     def _worded(self, value: Any, language: str) -> Any:
         if isinstance(value, Phrase):

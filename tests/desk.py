@@ -12,6 +12,7 @@ from app.session.motion import enabling, pace
 from app.session.motion.drive import MOTIONS
 from app.session.owners import owner_of
 from app.workers.hub import Hub
+from tests.standing_out import two_stand_out
 
 PATIENCE_S = 60.0
 SECRET = "somebody's own"
@@ -67,7 +68,9 @@ class Desk:
         self.idle()
 
     def idle(self):
+        """The worker has done all it was given; whatever state that is, one key at most is the next."""
         until(lambda: self._still(), f"the worker; {self.context.log[-2:]}")
+        assert not (both := two_stand_out(self.context.ui)), f"two keys at once are the next: {both}"
 
     def _still(self):
         worker = self.context.worker

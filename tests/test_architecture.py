@@ -38,6 +38,7 @@ LAYERS = [
     "apart",
     "steps",
     "templating",
+    "figures",
     "typed",
     "errors",
     "units",

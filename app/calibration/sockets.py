@@ -20,6 +20,7 @@ from app.calibration.result import ToolCalibration
 from app.calibration.wording import degenerate
 from app.errors import DegenerateGeometryError, TooFewPointsError
 from app.estimation import HALF, reach
+from app.figures import unsigned
 from app.geometry import Pose
 from app.recordings import Table
 from app.recordings.arm import robot_for
@@ -209,4 +210,4 @@ def sockets_page(found: Sockets) -> str:
     if pairs:
         text = ", ".join(f"{a}-{b.partition('_')[2]} {mm(d):.2f}" for a, b, d in pairs)
         lines.append(f"points of one placement lie apart by [mm]: {text}")
-    return "\n".join(lines)
+    return unsigned("\n".join(lines))

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from app.calibration.next_touch.advised import advised_touch
 from app.calibration.quality.region import ellipsoid, half_widths
 from app.calibration.solving import Solved
 from app.calibration.wording import FALLBACK, Phrase, name_of, phrase
 from app.errors import DegenerateGeometryError
 from app.estimation import HALF
+from app.figures import unsigned
 from app.geometry import CONVENTIONS
 from app.phrases import padded
 from app.units import deg, mm
@@ -17,7 +16,7 @@ from app.units import deg, mm
 
 def page(solved: Solved, language: str = FALLBACK) -> str:
     """Everything about one file, for a person at a terminal."""
-    return _Page(solved, language).text()
+    return unsigned(_Page(solved, language).text())
 
 
 class _Page:
@@ -73,12 +72,12 @@ class _Page:
     def _axes(self) -> list[str]:
         rotation = self._result.T_flange_tool.rotation
         lines = [self._t("rotation")]
-        lines += ["  " + " ".join(f"{v + 0.0:>9.5f}" for v in np.round(row, 9)) for row in rotation]
+        lines += ["  " + " ".join(f"{v:>9.5f}" for v in row) for row in rotation]
         for form in CONVENTIONS.values():
             numbers = form.from_rotation(rotation)
             shown = deg(numbers) if form.angular else numbers
             places, unit = (4, "deg") if form.angular else (6, "")
-            text = " ".join(f"{np.round(v, places) + 0.0:.{places}f}" for v in shown)
+            text = " ".join(f"{v:z.{places}f}" for v in shown)
             lines.append(f"  {form.key:<11}{text} {unit:<4} {', '.join(form.makers)}".rstrip())
         for cone in self._result.cones:
             fields = {"axis": cone.axis.upper(), "stroke": mm(cone.stroke)}

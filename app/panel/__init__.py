@@ -2,6 +2,8 @@
 
     widgets.py    Widget: one thing on a panel, as the page receives it
     panel.py      Panel: the tree of them, who hears what somebody does, and what changed since when
+    meant.py      what a page says of a widget, looked at before anybody hears it
+    standing_out.py  which keys of the first rank stand out: those of one place at a time
     uploads.py    a file somebody sent
     markup.py     small pieces of text with structure: tables, lights, notes; everything escaped
 

@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-import math
 import threading
 from collections.abc import Callable, Sequence
 from typing import Any
 
-import msgspec
 from markupsafe import escape
 
+from app.panel.meant import meant
+from app.panel.standing_out import Place, keys, ranked, speaking
 from app.panel.uploads import Upload
-from app.panel.widgets import Kind, Rank, Row, Value, Widget
+from app.panel.widgets import Kind, Rank, Row, Widget
 
-_LONGEST_TEXT = 2000
+_LEADING = ("visible", "disabled", "rank")  # fields by which another key may be the one that is pressed next
 _CONTAINERS = ("screen", "strip", "folder", "dialog")
 
 
@@ -64,6 +64,7 @@ class Panel:
         self._handles: dict[int, Handle] = {}
         self._changed: dict[int, int] = {}
         self._removed: dict[int, int] = {}
+        self._speaking: Place = (0, 0)
         self._number = self.revision = 0
         self.inside: list[int] = []  # where the next widget is put
         self.news: Callable[[], None] = lambda: None
@@ -75,7 +76,8 @@ class Panel:
         with self._lock:
             changed = [self._handles[n].data for n, at in self._changed.items() if at > revision]
             removed = [n for n, at in self._removed.items() if at > revision]
-            copies = [msgspec.structs.replace(data) for data in sorted(changed, key=lambda data: data.id)]
+            all_ = self._data
+            copies = [ranked(data, all_, self._speaking) for data in sorted(changed, key=lambda d: d.id)]
             return self.revision, copies, removed if revision else []
 
     def widgets(self) -> list[Widget]:
@@ -104,7 +106,7 @@ class Panel:
             handle = self._handles.get(number)
             if handle is None or handle.data.disabled or not self.seen(handle.data):
                 return
-            ok, value = _meant(handle.data, value)
+            ok, value = meant(handle.data, value)
             if not ok:
                 return
             if handle.data.kind in ("choice", "check", "number", "slider", "text", "vector"):
@@ -137,6 +139,8 @@ class Panel:
                 setattr(data, name, value)
                 if data.id in self._handles:
                     self._touch(data.id)
+                    if name in _LEADING:
+                        self._speak()
 
     def remove(self, number: int) -> None:
         """Takes a widget away, with everything in it."""
@@ -149,6 +153,7 @@ class Panel:
             self._changed.pop(number, None)
             self.revision += 1
             self._removed[number] = self.revision
+            self._speak()
             self.news()
 
     def reset(self) -> None:
@@ -157,6 +162,18 @@ class Panel:
             for number in [n for n, handle in self._handles.items() if not handle.data.parent]:
                 self.remove(number)
             self.inside.clear()
+
+    @property
+    def _data(self) -> dict[int, Widget]:
+        return {number: handle.data for number, handle in self._handles.items()}
+
+    def _speak(self) -> None:
+        """Another place may have the key that is pressed next: all keys of the first rank are told anew then."""
+        widgets = self._data
+        if (place := speaking(widgets)) != self._speaking:
+            self._speaking = place
+            for number in keys(widgets):
+                self._touch(number)
 
     def _touch(self, number: int) -> None:
         self.revision += 1
@@ -177,6 +194,7 @@ class Panel:
             )
             handle = self._handles[self._number] = Handle(self, data)
             self._touch(self._number)
+            self._speak()
             return handle
 
     # Making -----------------------------------------------------------------------------------------------
@@ -266,35 +284,3 @@ class Panel:
     def add_rows(self, rows: tuple[Row, ...] = (), *, visible: bool = True) -> Handle:
         """A list whose rows have buttons; heard as `row/action`."""
         return self._add("rows", rows=rows, visible=visible)
-
-
-def _meant(data: Widget, value: Any) -> tuple[bool, Value]:
-    """Whether a value is one this widget can have, and the value."""
-    kind = data.kind
-    if kind in ("choice", "buttons"):
-        return isinstance(value, str) and value in data.options, value
-    if kind == "button":
-        return True, None
-    if kind == "check":
-        return isinstance(value, bool), value
-    if kind == "text":
-        return isinstance(value, str) and len(value) <= _LONGEST_TEXT, value
-    if kind == "vector":
-        known = data.value if isinstance(data.value, tuple) else ()
-        fits = isinstance(value, list) and len(value) == len(known) and all(map(_finite, value))
-        return fits, tuple(float(v) for v in value) if fits else None
-    if kind in ("number", "slider"):
-        if not _finite(value):
-            return False, None
-        low, high = data.low, data.high
-        value = float(value)
-        value = value if low is None else max(value, low)
-        return True, value if high is None else min(value, high)
-    if kind == "rows":
-        known = {f"{row.key}/{action}" for row in data.rows for action, _ in row.actions}
-        return isinstance(value, str) and value in known, value
-    return kind == "dialog", None
-
-
-def _finite(value: Any) -> bool:
-    return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)

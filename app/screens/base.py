@@ -62,13 +62,15 @@ class _View:
             context.clicked(self._stop, self._halt)
             self._every = ui.add_number(t("base.every"), 10.0, low=2.0, high=45.0, step=1.0)
             self._hand = ByHand(context, self)
-        self._result = ui.add_html("", visible=False)
+        # Right under the verdict, as in the other wizards: a phone's window is lower than what follows.
+        self._verdict = ui.add_html("", visible=False)
         self._send = ui.add_button(t("base.send"), visible=False)
         context.clicked(self._send, self._meet)
         self._miss = ui.add_html("", visible=False)
         given = {t("base.export"): send_relation, t("base.report"): send_page}
         self._give = ui.add_buttons(t("base.give"), tuple(given), visible=False)
         context.chosen(self._give, lambda label: self._run and given[label](context, self._run))
+        self._result = ui.add_html("", visible=False)
         self._close_button = ui.add_button(t("base.close"), visible=False, rank="plain")
         context.clicked(self._close_button, self._leave_cell)
 
@@ -114,7 +116,16 @@ class _View:
         self._context.do(CloseCell())
         self._context.show_instead(None)
         self._intro.visible = self._setup.visible = True
-        for widget in (self._work, self._close_button, self._result, self._send, self._miss, self._give):
+        shown = (
+            self._work,
+            self._close_button,
+            self._verdict,
+            self._result,
+            self._send,
+            self._miss,
+            self._give,
+        )
+        for widget in shown:
             widget.visible = False
         self._context.say("info", self._context.t("base.closed"))
 
@@ -189,6 +200,7 @@ class _View:
             middle = run.drawn_tips().mean(axis=0)
             run.drawing.label("miss", f"{miss} mm", middle + np.array([0.0, 0.0, 0.12]))
             self._context.stage.view("whole")  # both arms and where they meet
+            self.show()
         self._context.say("good", t("base.met", miss=miss, predicted=predicted))
 
     # What is shown -----------------------------------------------------------------------------------------
@@ -208,10 +220,13 @@ class _View:
         self._next.content = html.paragraph(words, testid="base-next", faint=True)
         self._offer()
         self._hand.show(run)
+        self._verdict.content = cards.verdict(self._context, run)
         self._result.content = cards.result(self._context, run)
-        self._result.visible = self._give.visible = run.relation is not None
+        self._verdict.visible = self._result.visible = self._give.visible = run.relation is not None
         # What was found comes first; the procedure that led there stands below it.
         self._work.order = self._place if run.relation is None else self._close_button.order - 0.5
+        # Once they have met, what was found is taken away.
+        self._send.rank, self._give.rank = ("main", "plain") if run.meeting is None else ("plain", "main")
         self._send.visible = run.relation is not None and run.relation.T_base1_base2 is not None
 
     def numbers(self) -> None:

@@ -197,9 +197,9 @@ class _View:
             return
         self._history.visible = False
         self._task.content = cards.running(self.context, running)
-        if done := cards.done(state, running):
+        if cards.done(state, running):
             self._ask_again(False)
-        self._finish_button.rank = "main" if done else "plain"
+        self._finish_button.rank = "main" if cards.finished_next(state, running) else "plain"
         question = begun_exercise(running.begun).question
         if question is not None and not self._answer.visible:
             t = self.context.t

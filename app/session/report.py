@@ -9,6 +9,7 @@ import numpy as np
 
 from app.calibration.as_json import solved_json
 from app.calibration.text import page
+from app.figures import unsigned
 from app.geometry import CONVENTIONS
 from app.session.state import SessionState, TwoRobots, mode_named
 from app.simulation.tracker_cell import make_cell
@@ -26,7 +27,7 @@ def moment(seconds: float, form: str = "%Y-%m-%d %H:%M") -> str:
 
 def report_text(state: SessionState) -> str:
     """The result as a page; where there is none, what is still missing. With the user frame, where it was set."""
-    return "\n".join([_work(state), *_load(state), *_user_frame(state)])
+    return unsigned("\n".join([_work(state), *_load(state), *_user_frame(state)]))
 
 
 def _load(state: SessionState) -> list[str]:

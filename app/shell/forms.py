@@ -24,7 +24,7 @@ from app.texts import error_text, languages, text
 
 _FIELDS = 20  # of a form, where nothing else is said
 _HOUR = 3600  # seconds a form may lie open
-_PAGES = templates(__file__)
+_PAGES = templates(__file__, forms=True)
 #: A page of a form needs no script at all.
 FORM_POLICY = (
     "default-src 'none'; style-src 'self'; img-src 'self'; "

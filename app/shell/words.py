@@ -11,6 +11,7 @@ from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from app.errors import TeachframeError
 from app.people.limits import MESSAGES
+from app.shell import readable
 from app.shell.entrance import Entrance, Visitor
 from app.shell.messages import (
     VERSION,
@@ -160,12 +161,12 @@ class Words:
             whole = revision == 0
             revision, widgets, removed = self._live.context.ui.since(revision)
             if widgets or removed:
-                await self._say(Panel(widgets, removed, whole))
+                await self._say(Panel([readable.widget(data) for data in widgets], removed, whole))
             for download in self._live.downloads():
                 if download.token not in self._given:
                     self._given.add(download.token)
                     await self._say(File(download.token, download.name))
-            figures = said(self._live.read())
+            figures = said(readable.frame(self._live.read()))
             if figures != last:
                 last = figures
                 await self._socket.send_text(figures)
@@ -185,7 +186,8 @@ class Words:
             person = self._visitor.person
             name = "" if person is None else person.name
             beside = "" if person is None else "lessons" if person.role == "trainee" else "classes"
-            await self._say(Hello(VERSION, self._live.choices(), self._live.texts(), name, beside))
+            words = readable.texts(self._live.texts())
+            await self._say(Hello(VERSION, self._live.choices(), words, name, beside))
 
     async def _part(self) -> None:
         if self._live.closed and not self._live.taken:

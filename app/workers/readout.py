@@ -183,12 +183,10 @@ def _pose(context: Context, pose: Pose) -> tuple[tuple[str, str], ...]:
     form, words = CONVENTIONS[context.convention], Words(context)
     numbers = form.from_rotation(pose.rotation)
     if not form.angular:
-        shown = [f"{v + 0.0:.5f}" for v in np.round(numbers, 5)]
+        shown = [f"{v:.5f}" for v in numbers]
     elif words.radians(form.key):
-        shown = [f"{v + 0.0:.4f} rad" for v in np.round(numbers, 4)]
+        shown = [f"{v:.4f} rad" for v in numbers]
     else:
-        shown = [f"{v + 0.0:.2f}°" for v in np.round(deg(numbers), 2)]
-    lengths = [
-        (axis, f"{v + 0.0:.2f}") for axis, v in zip("XYZ", np.round(mm(pose.position), 2), strict=True)
-    ]
+        shown = [f"{v:.2f}°" for v in deg(numbers)]
+    lengths = [(axis, f"{v:.2f}") for axis, v in zip("XYZ", mm(pose.position), strict=True)]
     return (*lengths, *zip(words.angles(form.key), shown, strict=True))

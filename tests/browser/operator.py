@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
+from app.figures import NO_BREAK
 from app.session.actions import ChooseRobot
 from app.session.motion.drive import MOTIONS
 from app.session.owners import owner_of
@@ -22,6 +23,10 @@ _PROJECT = """([x, y, z]) => {
     const point = camera.position.clone().set(-y, z, -x).project(camera);
     return [at.x + box.x + (point.x + 1) / 2 * box.width, at.y + box.y + (1 - point.y) / 2 * box.height];
 }"""
+
+#: What the keys say that stand out on the page.
+_LOUD = """() => [...document.querySelectorAll("button.main:not(:disabled)")]
+    .filter((one) => one.checkVisibility()).map((one) => one.textContent)"""
 
 
 class Operator:
@@ -176,8 +181,10 @@ class Operator:
             line.click()
 
     def seen(self, testid):
-        """What a place on the page says."""
-        return self.page.get_by_test_id(testid).locator("visible=true").first.inner_text()
+        """What a place on the page says; a space that does not break is a space."""
+        return (
+            self.page.get_by_test_id(testid).locator("visible=true").first.inner_text().replace(NO_BREAK, " ")
+        )
 
     def reads(self, testid, words):
         """Waits until a place on the page says so."""
@@ -201,7 +208,8 @@ class Operator:
         self.until(lambda: self.context.stage.eyes.known, "the scene's page to say how large it is")
 
     def picture(self, name):
-        """Leaves a screenshot for people to look at."""
+        """Leaves a screenshot for people to look at, on which one key at most stands out."""
         SCREENSHOTS.mkdir(exist_ok=True)
         self.page.wait_for_timeout(600)
+        assert len(loud := self.page.evaluate(_LOUD)) <= 1, f"more than one key is the next: {loud}"
         self.page.screenshot(path=str(SCREENSHOTS / f"{name}.png"))

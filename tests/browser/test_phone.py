@@ -13,6 +13,7 @@ pytestmark = pytest.mark.browser
 
 PHONE, SMALL = {"width": 390, "height": 844}, {"width": 1024, "height": 768}
 TARGET_PX = 44.0
+APART_DEG = 20.0  # between two points of an arc: few, for what is not about them
 
 #: The first main key of the open screen, where it does not stand wholly in the work's window, below its tabs.
 _HIDDEN = """() => {
@@ -67,6 +68,28 @@ def test_an_exercise_is_begun_without_scrolling(sit_down, brisk):
     person.screen("training")
     person.page.get_by_role("button", name="Begin", exact=True).wait_for()
     assert person.page.evaluate(_HIDDEN) == []
+
+
+def test_what_two_robots_give_is_in_view_with_what_is_done_next(sit_down, brisk):
+    """Verdict and key stand above the procedure, which was looked at: the page stayed at the procedure's end."""
+    person = sit_down("irb120", screen=PHONE, touch=True)
+    person.page.locator("#switch button[data-part=work]").click()
+    person.screen("base")
+    person.click("Open the cell")
+    person.reads("base-plan", "Robot 1")
+    view = person.view("run")
+    person.does(lambda: setattr(view._every, "value", APART_DEG))
+    person.click("Run the whole procedure")
+    with person.holding():
+        person.until(lambda: view.run.relation is not None, "the relation")
+        person.at_rest()
+    person.page.locator("#screens .w button.main", has_text="Send both tools to one point").wait_for()
+    assert what_hides(person.page) == []
+    verdict, tabs = (
+        place.bounding_box()
+        for place in (person.page.get_by_test_id("base-light"), person.page.locator("#tabs"))
+    )
+    assert verdict["y"] >= tabs["y"] + tabs["height"]
 
 
 def touch(context, tilt):

@@ -67,6 +67,8 @@ def test_an_exercise_from_start_to_score_with_a_reload_in_the_middle(sit_down, b
         person.click("Accept anyway?")
     person.until(lambda: person.state.tool is not None, "the tool")
     found = person.state.tool.T_flange_tool.position
+    person.page.locator("#strip button.main", has_text="Finish and score").wait_for()
+    person.picture("training_4_accepted")
     person.click("Finish and score")
     person.reads("score-total", "of 100")
     person.picture("training_3_score")

@@ -8,6 +8,7 @@ import pytest
 from app.calibration.report import report
 from app.calibration.solving import solve_file
 from app.cli import run
+from app.figures import NO_BREAK
 from app.resources import STATIC
 
 TABLE_1 = STATIC / "samples" / "xiong2012_table1.csv"
@@ -36,7 +37,7 @@ def test_the_sheet_holds_picture_points_residuals_uncertainty_conditions_and_sig
 
 def test_a_rotation_vector_is_in_radians_as_universal_robots_shows_it(sheet):
     row = re.search(r"rotvec \(Universal Robots\)(.*?)</tr>", sheet, re.DOTALL)
-    assert row is not None and " rad" in row.group(1) and "°" not in row.group(1)
+    assert row is not None and f"{NO_BREAK}rad" in row.group(1) and "°" not in row.group(1)
     assert max(abs(float(v)) for v in re.findall(r"-?\d+\.\d+", row.group(1))) <= 3.1416
 
 

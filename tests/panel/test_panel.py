@@ -6,6 +6,7 @@ import msgspec
 import pytest
 
 from app.panel import Panel, Row, Widget
+from tests.standing_out import standing_out
 
 
 @pytest.fixture
@@ -98,3 +99,29 @@ def test_widgets_are_plain_data(panel):
         panel.add_rows((Row("t", "Touch 1", "now", "green", "next", (("record", "Record"),)),))
     text = msgspec.json.encode(panel.widgets())
     assert [w.kind for w in msgspec.json.decode(text, type=list[Widget])] == ["screen", "rows"]
+
+
+def test_of_all_places_at_once_the_uppermost_has_the_key_that_stands_out(panel):
+    """After "Accept" in an exercise two keys stood out, and under a score card the wizard's key beside the card's."""
+    with panel.add_screen("training", "Training"):
+        strip = panel.add_strip()
+    with panel.add_screen("tool", "Tool"):
+        record = panel.add_button("record")
+        panel.add_buttons("then", ("verify", "again"), rank="main", visible=False)
+    with strip:
+        finish = panel.add_button("finish", rank="plain")
+    strip.visible = True
+    assert standing_out(panel, "tool") == ["record"]
+    revision = panel.since(0)[0]
+    finish.rank = "main"
+    assert standing_out(panel, "tool") == ["finish"] and record.rank == "main"
+    assert record.data.id in [w.id for w in panel.since(revision)[1]]  # the page is told that it is quiet now
+    with panel.add_dialog("score") as dialog:
+        again = panel.add_button("again")
+    assert standing_out(panel, "tool") == ["again"]
+    again.disabled = True
+    assert standing_out(panel, "tool") == ["finish"]
+    again.disabled = False
+    dialog.close()
+    strip.visible = False
+    assert standing_out(panel, "tool") == ["record"]

@@ -8,8 +8,9 @@ import pytest
 
 from app.session.actions import OpenCell
 from app.simulation.tracker_cell import make_cell
-from app.units import mm
+from app.units import deg, mm
 from tests.desk import until
+from tests.standing_out import standing_out
 
 SEED = 5
 
@@ -41,6 +42,29 @@ def test_a_procedure_is_stopped_where_it_is_and_goes_on_from_there(opened):
         until(lambda: view.run.relation is not None, "the relation")
     desk.rests()
     assert "Stop the procedure" not in desk.shown()
+
+
+def test_the_slider_by_hand_stands_where_the_procedure_was_stopped(opened):
+    """It stood where the axis was when its step began: at the first touch the arm turned back by all of that."""
+    desk, view = opened, opened.view("run")
+    with desk.holding():
+        desk.does(lambda: view._start(whole=True))
+        until(
+            lambda: (s := view.run.wizard.step).axis == 1 and view.run.wizard.of(s.key), "a point of axis 1"
+        )
+        desk.press("Stop the procedure")
+    at = deg(view.run.postures[0][0])
+    assert abs(at) > 1.0 and view._hand._angle.value == pytest.approx(at, abs=0.51)  # whole degrees
+
+
+def test_once_both_tools_have_met_what_was_found_is_taken_away_next(opened):
+    desk, view = opened, opened.view("run")
+    desk.does(lambda: setattr(view._every, "value", 30.0))
+    desk.moves(lambda: view._start(whole=True))
+    assert standing_out(desk.context.ui, "base") == ["Send both tools to one point"]
+    desk.moves(view._meet)
+    assert view.run.meeting is not None
+    assert standing_out(desk.context.ui, "base") == ["Export the relation"]
 
 
 def test_the_emergency_stop_ends_it_and_takes_its_button_away(opened):

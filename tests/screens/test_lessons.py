@@ -8,6 +8,7 @@ from app.session.actions import Begin, Record
 from app.training.exercise import exercise, exercises
 from app.training.levels import LEVELS, PASS, levels_of, next_up
 from tests.desk import plain, until
+from tests.standing_out import standing_out
 
 WITH_BUTTONS = 80.0  # points that buttons alone are never worth
 
@@ -38,6 +39,8 @@ def test_pressing_three_buttons_four_times_passes_the_first_level_and_no_more(si
         desk.does(view._record_next)
     desk.does(view._compute)
     desk.does(view.deciding.accept)
+    finishing = desk.context.t("training.finish")
+    assert standing_out(desk.context.ui, "tool") == [finishing]  # and not the turn about the tool besides
     card = finish(desk)
     assert card.level == "guided" and PASS <= card.total < WITH_BUTTONS
     assert sum(part.points for part in card.parts) == pytest.approx(card.total, abs=0.05)
@@ -178,3 +181,11 @@ def test_what_is_not_done_takes_a_second_press_to_finish(sit_at):
     assert view._finish_button.label == desk.context.t("training.finish_sure")
     desk.does(view._finish)
     assert desk.state.running is None
+
+
+def test_an_exercise_that_begins_with_a_tool_asks_for_the_work_first(sit_at):
+    """Tool 1 was active, and so the key that finishes stood out before anything was done."""
+    desk = sit_at(robot="jby50")
+    begin(desk, "wrong_tool_active", "guided")
+    assert desk.state.tool is not None and training(desk)._finish_button.rank == "plain"
+    assert standing_out(desk.context.ui, "tool") == [desk.context.t("tool.propose")]

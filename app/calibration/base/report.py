@@ -14,6 +14,7 @@ from app.calibration.base.result import BaseCalibration
 from app.calibration.base.wording import TEXTS
 from app.calibration.result import Warning_
 from app.estimation import HALF
+from app.figures import unsigned
 from app.geometry import Pose
 from app.geometry.conventions import convention
 from app.phrases import FALLBACK, Phrase, padded
@@ -166,7 +167,7 @@ def base_text(base: BaseCalibration, language: str = FALLBACK) -> str:
         **beside,
     )
     lines.append(f"  {padded(t('axes'), -17)}{apart}")
-    return "\n".join(lines + remark_lines(base.warnings, base.notes, language))
+    return unsigned("\n".join(lines + remark_lines(base.warnings, base.notes, language)))
 
 
 def relation_text(relation: Relation, language: str = FALLBACK) -> str:
@@ -177,4 +178,4 @@ def relation_text(relation: Relation, language: str = FALLBACK) -> str:
         miss = mm(relation.region_meeting)
         lines.append(f"  T_base1_base2    {pose_lines(relation.T_base1_base2)}")
         lines.append("  " + TEXTS.text("report.meeting", language, x=x, y=y, z=z, miss=miss))
-    return "\n".join(lines + remark_lines(relation.warnings, relation.notes, language))
+    return unsigned("\n".join(lines + remark_lines(relation.warnings, relation.notes, language)))

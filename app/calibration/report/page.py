@@ -112,7 +112,7 @@ class _Sheet:
             radians = any(v.convention == form.key and v.angle_unit == "rad" for v in vocabularies().values())
             in_degrees = form.angular and not radians
             shown = deg(numbers) if in_degrees else numbers
-            text = "\u2002".join(f"{np.round(v, 5) + 0.0:.{3 if in_degrees else 5}f}" for v in shown)
+            text = "\u2002".join(f"{v:.{3 if in_degrees else 5}f}" for v in shown)
             unit = "°" if in_degrees else " rad" if radians else ""
             rows.append((f"{form.key} ({form.makers[0]})", text + unit))
         return rows

@@ -128,7 +128,7 @@ class _Sheet:
         ]
         # A turns about Z, B about Y, C about X: the half widths stand in that order.
         rows += [
-            (f"{name} [°]", f"{value + 0.0:.4f}", f"{width:.4f}")
+            (f"{name} [°]", f"{value:.4f}", f"{width:.4f}")
             for name, value, width in zip("ABC", angles, deg(half[5:2:-1]), strict=True)
         ]
         return rows

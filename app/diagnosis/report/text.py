@@ -35,6 +35,7 @@ from app.diagnosis.report.wording import (
     verdict_sentence,
 )
 from app.diagnosis.result import Diagnosis, Judged
+from app.figures import unsigned
 
 WIDTH = 100
 _LABEL = 17
@@ -77,7 +78,7 @@ def as_text(
     for k in of.others:
         lines += ["", *_finding(d, k, laws)]
     lines += ["", *_rest(d, prismatic)]
-    return "\n".join(lines).rstrip() + "\n"
+    return unsigned("\n".join(lines).rstrip() + "\n")
 
 
 def _quality(d: Diagnosis) -> list[str]:

@@ -46,7 +46,6 @@ class ByHand:
 
     def __init__(self, context: Context, procedure: Procedure):
         self._context, self._procedure = context, procedure
-        self._at: str | None = None  # key of the step the slider stands for
         ui, t = context.ui, context.t
         self.folder = ui.add_folder(t("base.by_hand"), expanded=False)
         with self.folder:
@@ -61,12 +60,15 @@ class ByHand:
             context.chosen(keys, lambda label: jobs[label]())
 
     def show(self, run: Run) -> None:
-        """The slider for the axis of the step at hand, from where it stands; without an axis there is none."""
+        """The slider for the axis of the step at hand, where it stands: the procedure may have been stopped on its way.
+
+        Without an axis there is none.
+        """
         step = run.wizard.step
         self._angle.visible = step is not None and bool(step.axis)
-        if step is None or not step.axis or step.key == self._at:
+        if step is None or not step.axis:
             return
-        self._at, arm = step.key, run.cell.arms[step.robot - 1]
+        arm = run.cell.arms[step.robot - 1]
         self._angle.min = float(np.ceil(deg(max(arm.robot.lower[step.axis - 1], -np.pi))))
         self._angle.max = float(np.floor(deg(min(arm.robot.upper[step.axis - 1], np.pi))))
         self._angle.value = round(deg(float(run.postures[step.robot - 1][step.axis - 1])))

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from app.calibration.base.frame import in_parent
+from app.calibration.result import Warning_
 from app.estimation import HALF
 from app.panel import markup as html
 from app.screens._base.run import Run
@@ -32,21 +33,34 @@ def plan(context: Context, run: Run) -> str:
     return html.table(rows, testid="base-plan")
 
 
+def verdict(context: Context, run: Run) -> str:
+    """How far two tools will miss each other, as a light; nothing before the relation is worked out."""
+    t, relation = context.t, run.relation
+    if relation is None:
+        return ""
+    severe = relation.T_base1_base2 is None
+    colour = "red" if severe else "yellow" if _remarks(context, run) else "green"
+    miss = f"{mm(relation.region_meeting):.2f}"
+    sentence = t("base.light_none") if severe else t("base.light_found", miss=miss)
+    return html.light(colour, sentence, testid="base-light")
+
+
+def _remarks(context: Context, run: Run) -> list[tuple[Warning_, str]]:
+    """What the checks of the relation and of both bases found, each with its words."""
+    relation, language = run.relation, context.language
+    found = [] if relation is None else [(w, w.said(language)) for w in relation.warnings]
+    for number, base in enumerate(run.bases, 1):
+        robot = context.t("base.robot_number", number=number)
+        found += [(w, context.t("base.of_robot", robot=robot, words=w.said(language))) for w in base.warnings]
+    return found
+
+
 def result(context: Context, run: Run) -> str:
     """The relation beside the cell's hidden truth, and what the checks say."""
     t, relation = context.t, run.relation
     if relation is None:
         return ""
-    found = [(w, w.said(context.language)) for w in relation.warnings]
-    for number, base in enumerate(run.bases, 1):
-        robot = t("base.robot_number", number=number)
-        found += [(w, t("base.of_robot", robot=robot, words=w.said(context.language))) for w in base.warnings]
-    severe = relation.T_base1_base2 is None
-    colour = "red" if severe else "yellow" if found else "green"
-    sentence = (
-        t("base.light_none") if severe else t("base.light_found", miss=f"{mm(relation.region_meeting):.2f}")
-    )
-    out = html.light(colour, sentence, testid="base-light")
+    found, out = _remarks(context, run), html.Markup("")
     if relation.T_base1_base2 is not None and (run.exam is None or run.exam.free):
         truth = run.cell.T_base1_base2
         gap = relation.T_base1_base2.inverse() @ truth

@@ -26,6 +26,7 @@ if TYPE_CHECKING:
 
 _FROM = np.array([-0.42, -0.74, 0.52])  # the eye's direction
 _LOOKS = 13  # places on each way that are kept in view
+FRAME = 0.28  # length of a base's drawn axes, in reaches of its arm
 _REST = 0.12  # seconds the arm stands at each point
 
 
@@ -88,7 +89,12 @@ class Run:
                 arm.T_world_base.apply(arm.robot.chain.frames(q[None]).joint_positions[0])
                 for arm, q in zip(cell.arms, self.postures, strict=True)
             ]
-            return Instead(np.vstack([*joints, *stands, tips]), tips.mean(axis=0), _FROM)
+            # The axes that were found are drawn where axis 2 comes by axis 1, and end so far above it.
+            tops = [
+                points[1] + FRAME * arm.robot.reach * arm.T_world_base.rotation[:, 2]
+                for arm, points in zip(cell.arms, joints, strict=True)
+            ]
+            return Instead(np.vstack([*joints, *stands, *tops, tips]), tips.mean(axis=0), _FROM)
         ways = [
             arm.flange(cell.posture(k, axis, angle)).apply(arm.reflector)
             for k, arm in enumerate(cell.arms)
@@ -246,7 +252,7 @@ class Run:
                 found,
                 self._t("base.base_label", number=k),
                 foot,
-                0.28 * self.cell.arms[k - 1].robot.reach,
+                FRAME * self.cell.arms[k - 1].robot.reach,
             )
         return self.relation
 

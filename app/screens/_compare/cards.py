@@ -104,10 +104,10 @@ def _legend(context: Context) -> str:
 def verdict(context: Context, diagnosis: Diagnosis) -> str:
     """The verdict as a light, and the noise it is judged against."""
     source = noise_source(diagnosis.noise.source, context.language)
-    noise = f"{measure(diagnosis.noise.value, diagnosis.noise.unit)}, {source}"
+    noise = measure(diagnosis.noise.value, diagnosis.noise.unit)
     said = verdict_sentence(diagnosis, context.language)
     return html.light(_LIGHT[diagnosis.verdict], said, testid="compare-verdict") + html.paragraph(
-        context.t("compare.noise", noise=noise), faint=True
+        context.t("compare.noise", noise=noise, source=source), faint=True
     )
 
 

@@ -67,7 +67,8 @@ class Outcome:
             self._notes.content = cards.notes(context, found)
 
     def switched(self, on: bool) -> None:
-        """What the switch would do now."""
+        """What the switch would do now; taking out again is nothing that has to come next."""
+        self._apply.rank = "plain" if on else "main"
         self._apply.label = self._context.t("compare.take_out" if on else "compare.apply")
 
     def hide(self) -> None:

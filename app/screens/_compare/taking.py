@@ -61,6 +61,8 @@ class Taking:
         found = loaded.diagnosis
         model = found is not None and bool(found.model)
         self._report.visible, self._model.visible = found is not None, model
+        # Where what was found can be put into the simulation, that key stands out, and it stands above.
+        self._report.rank = "main" if loaded.change is None else "plain"
         self._form.visible = self._simulation.visible = model
         self._cell.visible = model and not loaded.moving and loaded.robot.name in robot_names()
         self._reveal.visible = bool(loaded.truth)

@@ -71,9 +71,9 @@ def _tool(context: Context, solved: Solved) -> str:
     numbers = form.from_rotation(result.T_flange_tool.rotation)
     words = Words(context)
     if form.angular and not words.radians(form.key):
-        shown = [f"{v + 0.0:.2f}°" for v in np.round(deg(numbers), 2)]
+        shown = [f"{v:.2f}°" for v in deg(numbers)]
     else:
-        shown = [f"{v + 0.0:.5f}" for v in np.round(numbers, 5)]
+        shown = [f"{v:.5f}" for v in numbers]
     names = " ".join(words.angles(form.key)) + (" [rad]" if words.radians(form.key) else "")
     out = html.table(
         rows, head=(t("result.axis"), t("result.value"), t("result.sigma")), testid="tool-point"

@@ -10,7 +10,7 @@ from app.panel import markup as html
 from app.screens._training.lesson import verdict
 from app.session import SessionState
 from app.session.report import moment
-from app.session.state import Running, robot_named
+from app.session.state import Running, accepted, robot_named
 from app.training.exercise import Exercise, begun_exercise
 from app.training.levels import level_of
 from app.training.score import Part, ScoreCard
@@ -115,6 +115,16 @@ def done(state: SessionState, now: Running) -> bool:
     if goal == "relation":
         return now.wizard is not None and now.wizard.done
     return state.tool is not None if goal == "tool" else not state.missing
+
+
+def finished_next(state: SessionState, now: Running) -> bool:
+    """True where the key that finishes is the one pressed next.
+
+    An exercise may begin with an active tool, and a second try may be under way beside an accepted one: with a tool
+    asked for, it is the result that is accepted and still shown.
+    """
+    tool = begun_exercise(now.begun).goal == "tool"
+    return done(state, now) and (not tool or accepted(state))
 
 
 def after(context: Context, card: ScoreCard) -> str:

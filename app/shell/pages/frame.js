@@ -106,10 +106,13 @@ function pair(axis, sign) {
   return button;
 }
 
+// As a field has it; what rounds to nothing has no sign.
+const typed = (axis) => axis.number.toFixed(2).replace(/^-(0\.00)$/, "$1");
+
 function edit(row, button) {
   const axis = last.axes[row];
   const field = document.createElement("input");
-  Object.assign(field, { type: "number", min: axis.low, max: axis.high, step: "any", value: axis.number.toFixed(2) });
+  Object.assign(field, { type: "number", min: axis.low, max: axis.high, step: "any", value: typed(axis) });
   field.setAttribute("aria-label", button.getAttribute("aria-label"));
   editing = row;
   button.replaceWith(field);
@@ -124,7 +127,7 @@ function edit(row, button) {
     field.replaceWith(button);
   };
   field.onkeydown = (event) => { if (event.key === "Enter") end(true); };
-  field.onblur = () => end(field.value !== axis.number.toFixed(2));
+  field.onblur = () => end(field.value !== typed(axis));
 }
 
 export function show(read) {

@@ -41,8 +41,10 @@ const KINDS = {
   dialog: (data) => {
     const element = make("section");
     element.setAttribute("role", "dialog");
-    const title = make("h2");
-    element.append(title);
+    const title = make("h2"), away = make("button", "away", "×");
+    away.setAttribute("aria-label", t("page.close")); // in sight however long it is: Esc is the emergency stop
+    away.onclick = () => press(data);
+    element.append(title, away);
     return { element, inside: element, update: (now) => { title.textContent = now.label; element.setAttribute("aria-label", now.label); } };
   },
   folder: (data) => {

@@ -24,6 +24,7 @@ from app.diagnosis.report.drawing.joint_bars import joint_bars
 from app.diagnosis.report.wording import measure
 from app.diagnosis.result import FamilyShare, Leftover, Quality
 from app.diagnosis.wording import WORDS
+from app.figures import NO_BREAK
 from tests.diagnosis.report.cases import compliance, motion_case, static_case
 
 
@@ -131,7 +132,7 @@ def test_a_diagnosis_without_families_has_no_budget():
 def test_text_page_and_json_show_the_same_numbers():
     case = arm_off_everywhere()
     families = case.to_json()["families"]
-    text, page = as_text(case), as_page([case], [None], command="x", date="")
+    text, page = as_text(case), as_page([case], [None], command="x", date="").replace(NO_BREAK, " ")
     left = case.to_json()["before"]["heldout_rms"]
     for family in families:
         amount = measure(left - family["heldout_rms_after"], "mm")

@@ -11,6 +11,7 @@ from app.diagnosis.judging import BARE, WITH
 from app.diagnosis.report import as_page
 from app.diagnosis.report.picture_words import in_language
 from app.diagnosis.result import Diagnosis, Judged, Quality
+from app.figures import NO_BREAK
 from app.kinematics import load_robot
 from app.screens._compare.giving import send_report
 from tests.diagnosis.report.cases import compliance, motion_case, static_case
@@ -64,7 +65,8 @@ def every_section() -> dict[str, Diagnosis]:
 
 
 def page(case, robot=None, **more):
-    return as_page([case], [robot], command=COMMAND, date="2030-01-01 12:00", **more)
+    made = as_page([case], [robot], command=COMMAND, date="2030-01-01 12:00", **more)
+    return made.replace(NO_BREAK, " ")
 
 
 def said(text: str) -> set[str]:
