@@ -132,7 +132,7 @@ class Events:
         ):
             return
         scanned = self._scan(selection)
-        best = max(gain for _, _, gain in scanned)
+        best = max((gain for _, _, gain in scanned), default=0.0)
         for key, where, gain in scanned:
             if gain < max(MARGIN, 0.3 * best):
                 continue
