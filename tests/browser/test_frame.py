@@ -56,7 +56,7 @@ def test_a_button_moves_while_both_are_held_and_stops_with_either(sit_down, monk
     monkeypatch.setattr(enabling, "SILENCE", 3.0)
     person = sit_down()
     page, start = person.page, person.q
-    page.mouse.move(*middle(jog_button(person, "J1 plus")))
+    jog_button(person, "J1 plus").hover()  # once it stands still: the page may still be coming
     page.mouse.down()
     page.wait_for_timeout(300)
     assert np.array_equal(person.q, start)  # the switch is not held
@@ -104,7 +104,7 @@ def test_a_button_that_is_replaced_under_the_finger_is_let_go(sit_down, monkeypa
     monkeypatch.setattr(enabling, "SILENCE", 3.0)
     person = sit_down()
     page, start = person.page, person.q
-    page.mouse.move(*middle(jog_button(person, "J1 plus")))
+    jog_button(person, "J1 plus").hover()  # once it stands still: the page may still be coming
     with person.holding():
         page.mouse.down()
         person.until(lambda: person.q[0] > start[0] + 0.02, "axis 1 to move")

@@ -153,6 +153,7 @@ def test_what_lets_go_of_keys_lets_go_of_a_pad_until_it_is_pressed_anew(jogging,
 def test_after_a_stop_is_released_a_held_pad_moves_nothing(jogging):
     presses(jogging, STOP)
     jogging.until(lambda: jogging.context.drive.how == "stopped", "the round button")
+    jogging.until(lambda: jogging.context.log[-1][1] == "error", "what is said of it")
     said = len(jogging.context.log)
     jogging.page.wait_for_timeout(A_WHILE_MS)
     assert len(jogging.context.log) == said, "one press is one stop"
