@@ -141,7 +141,11 @@ def fit(
     asked.selection = plainer(asked)
     left = (asked.leftover_p < LEFT_P) & (asked.leftover_ratio > LEFT_RATIO)
     tell(at + 0.5 * (_SELECTED - at), "laws")
-    asked.selection = by_prediction(asked, bool(left.any()))
+    predicting = by_prediction(asked, bool(left.any()))
+    if predicting != asked.selection:
+        asked.selection = predicting
+        asked.renew()  # what a curve in time took, and nothing does now, is left
+        left = (asked.leftover_p < LEFT_P) & (asked.leftover_ratio > LEFT_RATIO)
     if prior is None and not left.any():
         asked.selection = completed(asked)
     tell(_SELECTED, "laws")
