@@ -42,6 +42,8 @@ def by_prediction(study: Study, unfinished: bool) -> Selection:
     chosen = study.selection
     if study.prior is not None:
         return Crossed(study, chosen, folds_of(len(study.y))).pruned(chosen) if unfinished else chosen
+    if not unfinished and study.state.joints > 1:
+        return chosen  # what has no name there would be dropped with a curve in time, and names be given without it
     every = dict.fromkeys(ordinary(study), TRUSTED)
     events = [g for g in chosen if not study.label(g).law.lasting]
     kept = {g: v for g, v in chosen.items() if g in study.evidence.kept or g in events}
