@@ -24,8 +24,8 @@ from app.diagnosis.dynamic.judging import judged
 from app.diagnosis.model import SavedModel
 from app.errors import InputError
 from benchmarks._document import DOCS, markdown, replace_section
-from benchmarks._ordinary import columns, fit
-from benchmarks.ordinary_motion import Log, folders, read, rms
+from benchmarks._parting import Whole
+from benchmarks.ordinary_motion import carried, folders, read
 from benchmarks.real_parts import HEADS, summary
 from benchmarks.rows import Row
 
@@ -70,30 +70,15 @@ def parts(seed: int, each: int) -> Iterator[Part]:
 def part(path: Path, begin: float, end: float) -> Part:
     """A log learnt between two shares of its rows, and carried to the longer side of the rest."""
     after = begin <= 1.0 - end
+    whole = Whole.of(path)
+    beyond = whole.between(end + GAP, 1.0) if after else whole.between(0.0, begin - GAP)
     with tempfile.TemporaryDirectory() as folder:
-        for description in path.parent.glob("*.urdf"):
-            (Path(folder) / description.name).write_bytes(description.read_bytes())
-        here = _cut(path, begin, end, Path(folder) / "part.csv")
-        rest = _cut(path, *((end + GAP, 1.0) if after else (0.0, begin - GAP)), Path(folder) / "rest.csv")
+        here = read(whole.part(whole.between(begin, end), Path(folder) / "part.csv"))
+        rest = read(whole.part(beyond, Path(folder) / "rest.csv"))
         model = msgspec.convert(dict(diagnose(here.table, here.robot).model), SavedModel)
-        before, carried = judged(rest.table, rest.robot, model).qualities
-        peer = min(_carried(here, rest, rotor) for rotor in (False, True))
-    return Part(f"{path.parent.name}/{path.stem}", end - begin, carried.fit_rms, peer, before.fit_rms)
-
-
-def _cut(path: Path, begin: float, end: float, into: Path) -> Log:
-    """The rows of a log between two shares of it, as a log of their own."""
-    lines = path.read_text(encoding="utf-8").splitlines()
-    comments = [line for line in lines if line.startswith("#")]
-    heads, *rows = lines[len(comments) :]
-    kept = rows[int(begin * len(rows)) : int(end * len(rows))]
-    into.write_text("\n".join([*comments, heads, *kept]) + "\n", encoding="utf-8")
-    return read(into)
-
-
-def _carried(here: Log, rest: Log, rotor: bool) -> float:
-    learnt = fit(columns(here.samples.state, rotor), here.samples.y)
-    return rms(rest.samples.y - columns(rest.samples.state, rotor) @ learnt)
+        before, ours = judged(rest.table, rest.robot, model).qualities
+    name = f"{path.parent.name}/{path.stem}"
+    return Part(name, end - begin, ours.fit_rms, carried(here, rest), before.fit_rms)
 
 
 def section(found: Sequence[Part], arguments: str) -> str:

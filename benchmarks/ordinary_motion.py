@@ -71,17 +71,20 @@ def compare(folder: Path) -> list[Line]:
             if other is log:
                 continue
             before, after = judged(other.table, other.robot, model).qualities
-            peer = min(
-                rms(
-                    other.samples.y
-                    - columns(other.samples.state, r) @ fit(columns(log.samples.state, r), log.samples.y)
-                )
-                for r in (False, True)
-            )
+            peer = carried(log, other)
             out.append(
                 Line(f"{folder.name}/{other.path.stem}", log.path.stem, before.fit_rms, after.fit_rms, peer)
             )
     return out
+
+
+def carried(log: Log, other: Log) -> float:
+    """Error on another log of least squares on one, with the rotors' inertia or without it, whichever is better."""
+    state, there = log.samples.state, other.samples
+    return min(
+        rms(there.y - columns(there.state, rotor) @ fit(columns(state, rotor), log.samples.y))
+        for rotor in (False, True)
+    )
 
 
 def read(path: Path) -> Log:

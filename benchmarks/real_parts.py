@@ -21,6 +21,7 @@ from typing import Protocol
 from app.units import mm
 from benchmarks._calibration.peer import calibrate, carried
 from benchmarks._document import DOCS, markdown, replace_section
+from benchmarks._parting import Whole
 from benchmarks._program import judged, learn
 from benchmarks.real_static import recordings
 from benchmarks.rows import Row
@@ -61,18 +62,13 @@ def parts(seed: int) -> Iterator[Part]:
 
 
 def _part(path: Path, size: int, how: str, draw: random.Random) -> Iterator[Part]:
-    lines = path.read_text(encoding="utf-8").splitlines()
-    comments = [line for line in lines if line.startswith("#")]
-    heads, *body = [line for line in lines if not line.startswith("#")]
-    if size >= LARGEST * len(body):
+    whole = Whole.of(path)
+    if size >= LARGEST * len(whole.rows):
         return
-    learnt, rest = _divided(heads.split(","), body, size, how, draw)
+    learnt, rest = _divided(whole.heads.split(","), whole.rows, size, how, draw)
     with tempfile.TemporaryDirectory() as folder:
-        for description in path.parent.glob("*.urdf"):
-            (Path(folder) / description.name).write_bytes(description.read_bytes())
-        first, second = Path(folder) / "learnt.csv", Path(folder) / "rest.csv"
-        for file, rows in ((first, learnt), (second, rest)):
-            file.write_text("\n".join([*comments, heads, *rows]) + "\n", encoding="utf-8")
+        first = whole.part(learnt, Path(folder) / "learnt.csv")
+        second = whole.part(rest, Path(folder) / "rest.csv")
         try:
             there, aside = carried(calibrate([first]), second)
         except ValueError:  # not one row is near any arm of this kind

@@ -40,21 +40,26 @@ def by_prediction(study: Study, unfinished: bool) -> Selection:
         unfinished: True where structure is left.
     """
     chosen = study.selection
-    if study.prior is not None:
-        return Crossed(study, chosen, folds_of(len(study.y))).pruned(chosen) if unfinished else chosen
-    if not unfinished and study.state.joints > 1:
+    single = study.prior is None and study.state.joints == 1
+    if not unfinished and not single:
         return chosen  # what has no name there would be dropped with a curve in time, and names be given without it
+    if study.prior is not None:
+        return _earned(study)
     every = dict.fromkeys(ordinary(study), TRUSTED)
     events = [g for g in chosen if not study.label(g).law.lasting]
     kept = {g: v for g, v in chosen.items() if g in study.evidence.kept or g in events}
     alone, beside = {**kept, **every}, {**_beside(study, chosen, every), **every}
-    count, widest = len(study.y), {**chosen, **every}
-    far = Crossed(study, widest, parts_of(count), events)
+    far = Crossed(study, {**chosen, **every}, parts_of(len(study.y)), events)
     if not unfinished and min(map(far.total, [alone, beside])) >= (1.0 - PLAINLY) * far.total(chosen):
         return chosen
-    first = Crossed(study, widest, folds_of(count)).pruned(chosen)
-    best = min([far.pruned(beside, [*every, *events]), alone, kept], key=far.total)
+    first = _earned(study)
+    best = min([far.pruned(beside, every), alone, kept], key=far.total)
     return best if far.total(best) < (1.0 - PLAINLY) * far.total(first) else first
+
+
+def _earned(study: Study) -> Selection:
+    """The study's selection without the laws that stretches in turn are predicted no worse without."""
+    return Crossed(study, study.selection, folds_of(len(study.y))).pruned(study.selection)
 
 
 def _beside(study: Study, chosen: Selection, families: Collection[int]) -> Selection:
@@ -216,7 +221,7 @@ class Crossed:
             fixed = (
                 set(self.study.rules.bound(now))
                 | self.study.evidence.kept
-                | set(stays)
+                | self.known.union(stays)
                 | {g for g in now if self._passing(g)}
             )
             worth = self.nepers(now)

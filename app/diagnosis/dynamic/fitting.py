@@ -23,7 +23,6 @@ from app.diagnosis.models.dynamic.saved import beside
 from app.diagnosis.models.dynamic.smoothing import Motion
 from app.diagnosis.observations.joint_log import Log
 from app.diagnosis.result import Progress
-from app.diagnosis.thresholds.noise import LEFT_P, LEFT_RATIO
 from app.kinematics import RobotModel
 
 ROUNDS = 3
@@ -71,7 +70,7 @@ class Fitted:
     @property
     def left(self) -> np.ndarray:
         """(n,) True where structure is left on a joint."""
-        return (self.study.leftover_p < LEFT_P) & (self.study.leftover_ratio > LEFT_RATIO)
+        return self.study.left
 
 
 def fit(
@@ -126,8 +125,7 @@ def fit(
         tell(at + 0.25 * round_, "laws")
         asked.run(start)
         tell(at + 0.75 * round_, "laws")
-        left = (asked.leftover_p < LEFT_P) & (asked.leftover_ratio > LEFT_RATIO)
-        if prior is None and not left.any():  # with structure left, gains would bend to it
+        if prior is None and not asked.left.any():  # with structure left, gains would bend to it
             asked.selection = completed(asked)
         study, before = asked, {asked.label(g).identity for g in asked.selection}
         hypothesis, moved = _settled(study, hypothesis, taken)
@@ -139,13 +137,12 @@ def fit(
     assert asked is not None
     tell(at, "laws")
     asked.selection = plainer(asked)
-    left = (asked.leftover_p < LEFT_P) & (asked.leftover_ratio > LEFT_RATIO)
     tell(at + 0.5 * (_SELECTED - at), "laws")
-    predicting = by_prediction(asked, bool(left.any()))
+    predicting = by_prediction(asked, bool(asked.left.any()))
     if predicting != asked.selection:
         asked.selection = predicting
         asked.renew()  # what a curve in time took, and nothing does now, is left
-        left = (asked.leftover_p < LEFT_P) & (asked.leftover_ratio > LEFT_RATIO)
+    left = asked.left
     if prior is None and not left.any():
         asked.selection = completed(asked)
     tell(_SELECTED, "laws")

@@ -31,6 +31,7 @@ from app.diagnosis.models.dynamic.state import State
 from app.diagnosis.regression.evidence import Evidence, Group, Posterior, Selection
 from app.diagnosis.selection.search import Search
 from app.diagnosis.thresholds.evidence import DENSE_FROM, SCANNED_BELOW, TAKE
+from app.diagnosis.thresholds.noise import LEFT_P, LEFT_RATIO
 
 #: Ridge of the fit of everything at once, over the mean diagonal of its scaled Gram matrix.
 RIDGE = 1e-4
@@ -256,6 +257,11 @@ class Study:
         return out
 
     # ------------------------------------------------------------------ reading
+
+    @property
+    def left(self) -> np.ndarray:
+        """(n,) True where structure is left on a joint."""
+        return (self.leftover_p < LEFT_P) & (self.leftover_ratio > LEFT_RATIO)
 
     def group(self, g: int) -> Group:
         return self.evidence.groups[g]

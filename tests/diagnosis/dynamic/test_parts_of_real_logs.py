@@ -7,6 +7,7 @@ import pytest
 from app.diagnosis.dynamic.diagnose import diagnose
 from app.recordings import read_table
 from app.recordings.arm import robot_for
+from benchmarks._parting import Whole
 from benchmarks.motion_parts import Part, part, section
 from tests.data_folder import data_folder
 
@@ -25,15 +26,8 @@ PARTS = [
 
 @pytest.mark.parametrize(("name", "begin", "end"), PARTS)
 def test_a_short_part_of_a_log_gets_an_answer(name, begin, end, tmp_path):
-    path = data_folder() / f"{name}.csv"
-    lines = path.read_text(encoding="utf-8").splitlines()
-    comments = [line for line in lines if line.startswith("#")]
-    heads, *rows = lines[len(comments) :]
-    part = rows[int(begin * len(rows)) : int(end * len(rows))]
-    for description in path.parent.glob("*.urdf"):
-        (tmp_path / description.name).write_bytes(description.read_bytes())
-    cut = tmp_path / "part.csv"
-    cut.write_text("\n".join([*comments, heads, *part]) + "\n", encoding="utf-8")
+    whole = Whole.of(data_folder() / f"{name}.csv")
+    cut = whole.part(whole.between(begin, end), tmp_path / "part.csv")
     table = read_table(cut)
     with warnings.catch_warnings():
         warnings.simplefilter("error")
