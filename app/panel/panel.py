@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from markupsafe import escape
@@ -13,7 +13,6 @@ from app.panel.standing_out import Place, keys, ranked, speaking
 from app.panel.uploads import Upload
 from app.panel.widgets import Kind, Rank, Row, Widget
 
-_LEADING = ("visible", "disabled", "rank")  # fields by which another key may be the one that is pressed next
 _CONTAINERS = ("screen", "strip", "folder", "dialog")
 
 
@@ -65,6 +64,7 @@ class Panel:
         self._changed: dict[int, int] = {}
         self._removed: dict[int, int] = {}
         self._speaking: Place = (0, 0)
+        self._weighed = 0  # the revision it was looked up at
         self._number = self.revision = 0
         self.inside: list[int] = []  # where the next widget is put
         self.news: Callable[[], None] = lambda: None
@@ -74,10 +74,11 @@ class Panel:
     def since(self, revision: int) -> tuple[int, list[Widget], list[int]]:
         """The revision now, widgets that changed after the one given, and numbers of those taken away."""
         with self._lock:
+            widgets = {number: handle.data for number, handle in self._handles.items()}
+            self._speak(widgets)
             changed = [self._handles[n].data for n, at in self._changed.items() if at > revision]
             removed = [n for n, at in self._removed.items() if at > revision]
-            all_ = self._data
-            copies = [ranked(data, all_, self._speaking) for data in sorted(changed, key=lambda d: d.id)]
+            copies = [ranked(data, widgets, self._speaking) for data in sorted(changed, key=lambda d: d.id)]
             return self.revision, copies, removed if revision else []
 
     def widgets(self) -> list[Widget]:
@@ -139,8 +140,6 @@ class Panel:
                 setattr(data, name, value)
                 if data.id in self._handles:
                     self._touch(data.id)
-                    if name in _LEADING:
-                        self._speak()
 
     def remove(self, number: int) -> None:
         """Takes a widget away, with everything in it."""
@@ -153,7 +152,6 @@ class Panel:
             self._changed.pop(number, None)
             self.revision += 1
             self._removed[number] = self.revision
-            self._speak()
             self.news()
 
     def reset(self) -> None:
@@ -163,17 +161,16 @@ class Panel:
                 self.remove(number)
             self.inside.clear()
 
-    @property
-    def _data(self) -> dict[int, Widget]:
-        return {number: handle.data for number, handle in self._handles.items()}
+    def _speak(self, widgets: Mapping[int, Widget]) -> None:
+        """Another place may have the key that is pressed next: all keys of the first rank are told anew then.
 
-    def _speak(self) -> None:
-        """Another place may have the key that is pressed next: all keys of the first rank are told anew then."""
-        widgets = self._data
-        if (place := speaking(widgets)) != self._speaking:
+        Looked up where a page asks what changed, and not at every change: a screen changes many widgets at once.
+        """
+        if self._weighed != self.revision and (place := speaking(widgets, self.seen)) != self._speaking:
             self._speaking = place
             for number in keys(widgets):
                 self._touch(number)
+        self._weighed = self.revision
 
     def _touch(self, number: int) -> None:
         self.revision += 1
@@ -194,7 +191,6 @@ class Panel:
             )
             handle = self._handles[self._number] = Handle(self, data)
             self._touch(self._number)
-            self._speak()
             return handle
 
     # Making -----------------------------------------------------------------------------------------------

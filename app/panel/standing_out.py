@@ -6,7 +6,7 @@ a person they are one page: where two of them have such a key, the one that is o
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 
 import msgspec
 
@@ -18,9 +18,15 @@ _KEYS = ("button", "buttons")
 Place = tuple[int, int]  # the layer, and among dialogs the number of the one: the newest lies over the others
 
 
-def speaking(widgets: Mapping[int, Widget]) -> Place:
-    """The uppermost place that shows an enabled key of the first rank; a screen where none does."""
-    return max((_place(data, widgets) for data in widgets.values() if _shown(data, widgets)), default=(0, 0))
+def speaking(widgets: Mapping[int, Widget], seen: Callable[[Widget], bool]) -> Place:
+    """The uppermost place that shows an enabled key of the first rank; a screen where none does.
+
+    Args:
+        widgets: all of them, by number.
+        seen: True for one that is shown, with all that it stands in.
+    """
+    shown = (data for data in widgets.values() if _first(data) and not data.disabled and seen(data))
+    return max((_place(data, widgets) for data in shown), default=(0, 0))
 
 
 def ranked(data: Widget, widgets: Mapping[int, Widget], place: Place) -> Widget:
@@ -31,13 +37,17 @@ def ranked(data: Widget, widgets: Mapping[int, Widget], place: Place) -> Widget:
         widgets: all of them, by number.
         place: that speaks.
     """
-    below = data.kind in _KEYS and data.rank == "main" and _place(data, widgets) < place
+    below = _first(data) and _place(data, widgets) < place
     return msgspec.structs.replace(data, rank="plain" if below else data.rank)
 
 
 def keys(widgets: Mapping[int, Widget]) -> list[int]:
     """Numbers of the keys of the first rank."""
-    return [number for number, data in widgets.items() if data.kind in _KEYS and data.rank == "main"]
+    return [number for number, data in widgets.items() if _first(data)]
+
+
+def _first(data: Widget) -> bool:
+    return data.kind in _KEYS and data.rank == "main"
 
 
 def _root(data: Widget, widgets: Mapping[int, Widget]) -> Widget:
@@ -50,11 +60,3 @@ def _root(data: Widget, widgets: Mapping[int, Widget]) -> Widget:
 def _place(data: Widget, widgets: Mapping[int, Widget]) -> Place:
     root = _root(data, widgets)
     return _LAYERS.get(root.kind, 0), root.id if root.kind == "dialog" else 0
-
-
-def _shown(data: Widget, widgets: Mapping[int, Widget]) -> bool:
-    if data.kind not in _KEYS or data.rank != "main" or data.disabled:
-        return False
-    while data.visible and data.parent:
-        data = widgets[data.parent]
-    return data.visible
