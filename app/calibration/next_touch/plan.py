@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from app.calibration.next_touch.prediction import information, inverse_trace
+from app.calibration.next_touch.prediction import inverse_trace, with_another
 
 _STARTS = 12
 #: Stands in for what is not determined yet, so that the first touches can be compared.
@@ -33,44 +33,48 @@ def plan_touches(done: np.ndarray, choice: np.ndarray, count: int, *, seed: int 
     """
     rng = np.random.default_rng(seed)
     base = np.sum(done, axis=0) if len(done) else np.zeros((3, 3))
-    total = len(done) + count
-    best: tuple[float, np.ndarray] = (np.inf, np.zeros(count, int))
-    for start in range(_STARTS if count > 1 else 1):
-        picked = rng.integers(len(choice), size=count) if start else _greedy(base, len(done), choice, count)
-        value = np.inf
-        for _ in range(_ROUNDS):
-            before = value
-            for k in range(count):
-                others = base + choice[np.delete(picked, k)].sum(axis=0)
-                scores = _score(others + choice, total)
-                picked[k] = int(np.argmin(scores))
-                value = float(scores[picked[k]])
-            if value >= before * (1.0 - 1e-9):
-                break
-        if value < best[0]:
-            best = (value, picked.copy())
-    return _in_order(base, len(done), choice, list(best[1]))
+    greedy = _one_by_one(base, len(done), choice, count, again=True)
+    drawn = rng.integers(len(choice), size=(_STARTS - 1, count))
+    picked = np.vstack([greedy, drawn]) if count > 1 else np.array([greedy])
+    values = _exchange(base, len(done) + count, choice, picked)
+    best = picked[np.argmin(values)]
+    return [int(best[i]) for i in _one_by_one(base, len(done), choice[best], count, again=False)]
 
 
-def _greedy(base: np.ndarray, done: int, choice: np.ndarray, count: int) -> np.ndarray:
-    out = np.zeros(count, int)
-    for k in range(count):
-        out[k] = int(np.argmin(_score(base + choice, done + k + 1)))
-        base = base + choice[out[k]]
-    return out
+def _exchange(base: np.ndarray, total: int, choice: np.ndarray, picked: np.ndarray) -> np.ndarray:
+    """Exchanges touches in place until no start improves; (k,) the score of each start.
+
+    Args:
+        base: (3, 3) sum of the rotations made.
+        total: touches made and planned.
+        choice: (m, 3, 3) allowed rotations.
+        picked: (k, count) indices into them, a row a start.
+    """
+    values = np.full(len(picked), np.inf)
+    for _ in range(_ROUNDS):
+        before = values
+        for k in range(picked.shape[1]):
+            others = base + choice[np.delete(picked, k, axis=1)].sum(axis=1)
+            scores = _score(others, choice, total)
+            picked[:, k] = np.argmin(scores, axis=1)
+            values = scores.min(axis=1)
+        if not np.any(values < before * (1.0 - 1e-9)):
+            break
+    return values
 
 
-def _score(sums: np.ndarray, count: int) -> np.ndarray:
-    return inverse_trace(information(sums, count) + _FAINT * np.eye(3))
-
-
-def _in_order(base: np.ndarray, done: int, choice: np.ndarray, picked: list[int]) -> list[int]:
-    """The same touches, each time the one that helps most."""
+def _one_by_one(base: np.ndarray, done: int, choice: np.ndarray, count: int, *, again: bool) -> list[int]:
+    """`count` indices, each the one that helps most beside those before it; `again` allows one more than once."""
     out: list[int] = []
-    rest = [int(i) for i in picked]
-    while rest:
-        scores = _score(base + choice[rest], done + len(out) + 1)
-        first = rest.pop(int(np.argmin(scores)))
-        base = base + choice[first]
-        out.append(first)
+    for _ in range(count):
+        scores = _score(base[None], choice, done + len(out) + 1)[0]
+        if not again:
+            scores[out] = np.inf
+        out.append(int(np.argmin(scores)))
+        base = base + choice[out[-1]]
     return out
+
+
+def _score(sums: np.ndarray, choice: np.ndarray, total: int) -> np.ndarray:
+    """(k, m) mean variance, up to a factor, with each of m rotations added to each of k sums of rotations."""
+    return inverse_trace(with_another(sums, choice, total), _FAINT)

@@ -13,6 +13,7 @@ from app.units import from_mm
 #: One-sigma noise of a touch on one axis before any is known [m]: a careful hand.
 USUAL_NOISE = from_mm(0.3)
 _SINGULAR = 1e-12
+_UPPER = ((0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2))
 
 
 def information(total: np.ndarray, count: int) -> np.ndarray:
@@ -46,10 +47,34 @@ def predicted_error(rotations: np.ndarray, noise: float = USUAL_NOISE) -> float:
     return reach(0) * float(np.sqrt(np.linalg.eigvalsh(covariance)[-1]))
 
 
-def inverse_trace(matrices: np.ndarray) -> np.ndarray:
-    """trace(M^-1) of symmetric (..., 3, 3) in closed form; huge where singular."""
-    a, b, c = matrices[..., 0, 0], matrices[..., 0, 1], matrices[..., 0, 2]
-    d, e, f = matrices[..., 1, 1], matrices[..., 1, 2], matrices[..., 2, 2]
+def with_another(sums: np.ndarray, rotations: np.ndarray, count: int) -> np.ndarray:
+    """(6, k, m) information with each of m rotations added to each of k sums; rows 11, 12, 13, 22, 23, 33 of 3 x 3.
+
+    (S + R)^T (S + R) is S^T S + I and a part linear in R, which one product gives for all.
+
+    Args:
+        sums: (k, 3, 3) of count - 1 rotations each.
+        rotations: (m, 3, 3).
+        count: rotations in all, the added one included.
+    """
+    linear = np.zeros((6, len(sums), 3, 3))
+    for entries, (i, j) in zip(linear, _UPPER, strict=True):
+        entries[:, :, j] += sums[:, :, i]
+        entries[:, :, i] += sums[:, :, j]
+    squared = np.swapaxes(sums, 1, 2) @ sums
+    fixed = np.stack([(count - 1.0 / count) * (i == j) - squared[:, i, j] / count for i, j in _UPPER])
+    return fixed[:, :, None] - linear.reshape(6, -1, 9) @ (rotations.reshape(-1, 9).T / count)
+
+
+def inverse_trace(upper: np.ndarray, faint: float = 0.0) -> np.ndarray:
+    """trace((M + faint I)^-1) of symmetric matrices in closed form; huge where singular.
+
+    Args:
+        upper: (6, ...) their entries 11, 12, 13, 22, 23, 33.
+        faint: added to the diagonal.
+    """
+    a, b, c, d, e, f = upper
+    a, d, f = a + faint, d + faint, f + faint
     first, second, third = d * f - e * e, b * f - c * e, b * e - c * d
     determinant = a * first - b * second + c * third
     sums = first + a * f - c * c + a * d - b * b
