@@ -25,14 +25,16 @@ def ask(path: Path, without: str = "") -> dict[str, Any]:
     """
     from app import catalog
 
-    packages = _libraries() if without else []
-    taken = {p: catalog.members(p, "EFFECT").pop(without, None) for p in packages}
+    families = [catalog.members(package, "EFFECT") for package in _libraries()] if without else []
+    whole = [dict(family) for family in families]
+    for family in families:
+        family.pop(without, None)
     try:
         return _diagnosed(path)[0]
-    finally:
-        for package, effect in taken.items():
-            if effect is not None:
-                catalog.members(package, "EFFECT")[without] = effect
+    finally:  # in the order they had: whoever asks next in this process finds the library as it was
+        for family, members in zip(families, whole, strict=True):
+            family.clear()
+            family.update(members)
 
 
 def ask_whole(path: Path, second: Path, reference: Path | None = None) -> dict[str, Any]:

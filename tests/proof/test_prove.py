@@ -130,10 +130,10 @@ def test_controls_are_drawn_as_they_are_described(kind, tmp_path):
 
 def test_the_law_taken_out_for_a_control_is_back_afterwards(tmp_path):
     control = draw_control(5, 0, "without", tmp_path)
-    before = dict(catalog.members("app.diagnosis.effects.kinematic", "EFFECT"))
+    before = list(catalog.members("app.diagnosis.effects.kinematic", "EFFECT").items())
     said = ask(control.path, control.without)
     assert control.without not in [f["effect"] for f in said.get("findings", ())]
-    assert catalog.members("app.diagnosis.effects.kinematic", "EFFECT") == before
+    assert list(catalog.members("app.diagnosis.effects.kinematic", "EFFECT").items()) == before
 
 
 def _seen(request, geometry=False, kind="touch", topology="offset_wrist"):

@@ -9,8 +9,10 @@ from app.diagnosis.kinematic.diagnose import diagnose
 from app.diagnosis.kinematic.judging import judged
 from app.diagnosis.kinematic.regions import regions
 from app.diagnosis.model import ModelEffect, SavedModel, Taught, model_of
+from app.diagnosis.models.kinematic import candidates
 from app.diagnosis.models.kinematic.saved import held_terms
 from app.diagnosis.models.kinematic.situation import situation_for
+from app.diagnosis.models.kinematic.terms import effects
 from app.diagnosis.observations.pose_reading import read_static
 from app.recordings import read_table
 from app.recordings.arm import robot_for
@@ -47,6 +49,20 @@ def test_a_part_carried_to_the_rest_is_no_worse_than_an_ordinary_calibration(nam
     model = model_of(diagnose(learnt, robot))
     found = judged(read_static(rest, robot), robot, model)
     assert found.after_quality.heldout_rms < left * found.before_quality.heldout_rms
+
+
+@pytest.mark.parametrize("seed", [1, 2])
+def test_what_is_found_does_not_hang_on_the_names_of_the_effects_files(seed, monkeypatch):
+    learnt, _ = parted("ur10_tracker/run_a", 120, 700)
+    robot, every = robot_for(learnt), list(effects().items())
+    found = diagnose(learnt, robot)
+    shuffled = random.Random(seed).sample(every, len(every))
+    monkeypatch.setattr(candidates, "effects", lambda: dict(shuffled))
+    again = diagnose(learnt, robot)
+    assert again.after.heldout_rms == pytest.approx(found.after.heldout_rms, rel=1e-3)
+    assert sorted(f.share for f in again.families) == pytest.approx(
+        sorted(f.share for f in found.families), abs=1e-3
+    )
 
 
 def test_what_an_instrument_gets_wrong_throughout_is_carried_and_a_step_is_not(arm, tmp_path):
