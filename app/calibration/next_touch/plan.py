@@ -17,6 +17,9 @@ _STARTS = 12
 #: Stands in for what is not determined yet, so that the first touches can be compared.
 _FAINT = 1e-3
 _ROUNDS = 30
+#: Relative: scores that differ by less are one, and the first of them is taken. Touches that mirror each other help
+#: alike, and rounding, which is another on every machine, does not choose between them.
+_ALIKE = 1e-9
 
 
 def plan_touches(done: np.ndarray, choice: np.ndarray, count: int, *, seed: int = 0) -> list[int]:
@@ -37,7 +40,7 @@ def plan_touches(done: np.ndarray, choice: np.ndarray, count: int, *, seed: int 
     drawn = rng.integers(len(choice), size=(_STARTS - 1, count))
     picked = np.vstack([greedy, drawn]) if count > 1 else np.array([greedy])
     values = _exchange(base, len(done) + count, choice, picked)
-    best = picked[np.argmin(values)]
+    best = picked[_least(values)]
     return [int(best[i]) for i in _one_by_one(base, len(done), choice[best], count, again=False)]
 
 
@@ -56,9 +59,9 @@ def _exchange(base: np.ndarray, total: int, choice: np.ndarray, picked: np.ndarr
         for k in range(picked.shape[1]):
             others = base + choice[np.delete(picked, k, axis=1)].sum(axis=1)
             scores = _score(others, choice, total)
-            picked[:, k] = np.argmin(scores, axis=1)
+            picked[:, k] = _least(scores)
             values = scores.min(axis=1)
-        if not np.any(values < before * (1.0 - 1e-9)):
+        if not np.any(values < before * (1.0 - _ALIKE)):
             break
     return values
 
@@ -70,9 +73,14 @@ def _one_by_one(base: np.ndarray, done: int, choice: np.ndarray, count: int, *, 
         scores = _score(base[None], choice, done + len(out) + 1)[0]
         if not again:
             scores[out] = np.inf
-        out.append(int(np.argmin(scores)))
+        out.append(int(_least(scores)))
         base = base + choice[out[-1]]
     return out
+
+
+def _least(scores: np.ndarray) -> np.ndarray:
+    """The first of the least along the last axis."""
+    return np.argmax(scores <= scores.min(axis=-1, keepdims=True) * (1.0 + _ALIKE), axis=-1)
 
 
 def _score(sums: np.ndarray, choice: np.ndarray, total: int) -> np.ndarray:
