@@ -8,6 +8,7 @@ from app.scene.instead import Instead
 from app.screens._base.run import Run
 from app.simulation.tracker_cell import make_cell
 from app.simulation.tracker_meeting import meet
+from tests.desk import until
 
 SIGMAS = 4.0
 STEP = np.radians(20)
@@ -140,6 +141,28 @@ def test_a_step_in_which_nothing_moves_gives_its_keys_back(in_the_cell):
     assert {"Run this step", "By hand"} <= desk.shown() and "Stop the procedure" not in desk.shown()
 
 
+def test_the_message_says_what_is_waited_for_and_then_what_is_done(in_the_cell):
+    """'The tracker is ready' stood beside a procedure that waited for the switch, and while it ran."""
+    desk, view = in_the_cell
+    desk.press("Run this step")
+    desk.rests()
+    assert "fixed points: measured. Next: Robot 1 · zero position" in desk.said[1]
+    view._every.value = 45.0
+    desk.does(lambda: view._start(whole=True))
+    until(lambda: view.run.moves(), "the arc")
+    until(lambda: desk.said[1].startswith("Waits for the switch"), "what is waited for")
+    with desk.holding():
+        until(lambda: "axis 1 alone: it is being measured" in desk.said[1], "what is done")
+    desk.live.cancel()
+    desk.idle()
+    assert "was stopped" in desk.said[1] and desk.drive.how == "standing"
+    desk.does(lambda: view._start(whole=True))
+    with desk.holding():
+        desk.rests()
+    desk.press("Send both tools to one point")
+    assert desk.said[1].startswith("Waits for the switch") and "both tools go to one point" in desk.said[1]
+
+
 def test_by_hand_too_nothing_moves_unless_the_switch_is_held(in_the_cell):
     desk, view = in_the_cell
     for _ in range(2):  # nests, zero position
@@ -151,7 +174,7 @@ def test_by_hand_too_nothing_moves_unless_the_switch_is_held(in_the_cell):
     for _ in range(5):
         desk.does(lambda: None)
     assert np.array_equal(view.run.postures[0], stood) and desk.drive.how == "waiting"
-    assert desk.drive.errand == "axis 1 of robot 1"
+    assert desk.drive.errand == "axis 1 of robot 1" and desk.said[1].startswith("Waits for the switch")
     with desk.holding():
         desk.rests()
     assert view.run.postures[0][0] == pytest.approx(np.radians(40.0))
