@@ -62,6 +62,14 @@ def test_tags_pictures_and_styles_stay_as_they_are():
     assert in_markup(f"{around}-0.0 mm</p>") == f"{around}0.0{NO_BREAK}mm</p>"
 
 
+def test_what_is_sent_back_or_copied_stays_as_it_stands_and_so_does_what_is_cited():
+    for name in ("textarea", "code", "pre"):
+        kept = f'<{name} name="x">load = -0.00 mm <b>5 mm</b></{name}>'
+        assert in_markup(f"{kept}<p>5 mm</p>") == f"{kept}<p>5{NO_BREAK}mm</p>"
+    cited = str(html.Markup.escape("'-0.00' is no mass, \"-0.0\" is none"))
+    assert in_markup(cited) == cited
+
+
 @pytest.mark.parametrize("number", ["0.2 mm", "-1.5 mm", "3.0 °"])
 def test_a_number_that_is_copied_from_a_page_is_still_a_number(number):
     value, unit = together(number).split()
