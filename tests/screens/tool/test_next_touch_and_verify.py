@@ -120,10 +120,25 @@ def test_verifying_draws_the_trace_says_the_wander_and_gives_way_when_the_arm_is
     off = np.linalg.norm(desk.state.result.result.tool_point - desk.context.world.T_flange_tool_true.position)
     assert 0.0 < found.wander <= 2.0 * np.sin(np.radians(45.0) / 2) * off + from_mm(0.01)
     assert f"{mm(found.wander):.2f} mm" in plain(desk.tool.deciding.verifying._text.content)
+    assert "Accepted and verified: the tool can be used" in desk.read()
+    assert desk.tool.deciding._again.rank == "plain"  # what was done is not what is next
     desk.place(desk.q + 0.1)
     assert not stage.trace.drawn and not stage.handle.visible  # the view is a near one
     desk.does(lambda: stage.view("whole"))
     assert stage.handle.visible
+
+
+def test_the_light_says_what_is_next_and_not_what_was_done(desk):
+    """'Accept, then verify' stood beside the tool that was accepted, also where an exercise waited to be finished."""
+    desk.fresh(robot="ur10e").does(lambda: desk.context.do(ChooseMode("touch", 4)))
+    touches(desk, 4)
+    desk.does(lambda: desk.context.do(Calculate()))
+    assert "Accept, then verify." in desk.read()
+    desk.does(lambda: desk.context.do(Accept("torch")))
+    assert "Accept, then" not in desk.read() and "Accepted: now verify by turning" in desk.read()
+    desk.does(lambda: desk.context.do(Record("touch1", as_tuple(desk.q))))
+    desk.does(lambda: desk.context.do(Calculate()))
+    assert "Accepted" not in desk.read()  # another result, which nobody has accepted
 
 
 def test_a_pose_in_the_fence_is_neither_proposed_nor_turned_at():
@@ -159,5 +174,8 @@ def test_a_typed_tool_that_is_off_is_sent_back_though_nothing_was_predicted(desk
     assert "wandered" in said and "nan" not in said
     assert "MORE than 0.8 mm. Teach again" in said and desk.said[0] == "warning"
     assert desk.tool.deciding.verifying.found.wander > from_mm(1.0)
+    assert "The turn did not confirm it: teach again" in desk.read()
+    again = desk.tool.deciding._again
+    assert again.rank == "main" and again.options == ("Teach again", "Verify")
     desk.does(lambda: desk.context.do(Cancel()))
     assert mode("direct").default_touches == 0 and not desk.context.stage.trace.drawn
