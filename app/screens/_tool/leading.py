@@ -32,6 +32,9 @@ def leads(context: Context, step: Step, ghost: np.ndarray | None) -> str:
         return RECORD
     if _recorded_here(context):  # the next touch has to be another one
         return HAND if ghost is None else GHOST
+    if ghost is not None and np.array_equal(ghost, context.q):
+        # A ghost is worked out, not felt: touches recorded there have no scatter, and a tool of 0.00 mm says nothing.
+        return HAND
     if context.aids.light and context.world.off(context.q, step.roles) <= context.world.contact_distance:
         return RECORD
     return HAND if ghost is None or _at(ghost, context.q) else GHOST

@@ -93,8 +93,9 @@ class NextTouch:
         title = self._title()
 
         def arrived() -> None:
-            # Where the light says that the tip touches, the key that stands out is the one that records.
-            key = "touched" if context.aids.light and context.world.touching(context.q) else "proposed"
+            # Where no hand helps and the light says that the tip touches, it is recorded next.
+            light, hand = context.aids.light, context.aids.touch
+            key = "touched" if light and not hand and context.world.touching(context.q) else "proposed"
             context.say("info", context.t(f"message.{key}", title=title))
 
         context.go(proposal.q, arrived, context.t("errand.ghost", title=title))
