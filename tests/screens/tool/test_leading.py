@@ -2,6 +2,7 @@
 
 import dataclasses
 
+from app.screens.aids import Aids
 from app.session.actions import ChooseMode
 from app.units import from_mm
 from tests.desk import until
@@ -53,3 +54,19 @@ def test_without_help_the_record_key_stands_out_and_tells_nothing_of_contact(des
     bare = dataclasses.replace(desk.context.aids, touch=False, next_touch=False, light=False, distance=False)
     desk.does(lambda: desk.context.allow(bare))
     assert standing_out(desk) == ["record"]
+
+
+def test_what_is_brought_there_by_hand_is_recorded_where_it_touches_and_not_in_the_air(desk):
+    """In an exercise without help the key stood out 269 mm from the spike, and again where a touch had been taken."""
+    desk.fresh(robot="ur10e")
+    desk.does(lambda: desk.context.do(ChooseMode("touch", 4)))
+    desk.does(lambda: desk.context.allow(Aids(touch=False, next_touch=False)))
+    assert standing_out(desk) == []
+    world = desk.context.world
+    desk.place(world.touch(desk.q, desk.context.rng).q)
+    assert standing_out(desk) == ["record"]
+    desk.does(desk.tool._record_next)
+    assert standing_out(desk) == []
+    desk.place(desk.context.model.home)
+    assert standing_out(desk) == []
+    desk.does(lambda: desk.context.allow(Aids()))
