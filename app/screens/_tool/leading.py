@@ -24,7 +24,7 @@ def leads(context: Context, step: Step, ghost: np.ndarray | None) -> str:
     Args:
         context: whose arm and aids.
         step: at hand.
-        ghost: (n,) where the proposed touch is; None where none is proposed.
+        ghost: (n,) where the key to the ghost leads; None where none is proposed.
     """
     if step.role in AXES:
         return RECORD if _stroke_made(context, step) else HAND

@@ -2,11 +2,13 @@
 
 import threading
 import time
+from dataclasses import replace
 
 import numpy as np
 
 from app.calibration.modes import mode
 from app.calibration.next_touch import predicted_error, propose
+from app.geometry import Pose
 from app.kinematics import load_robot
 from app.screens._tool import next_touch, verifying
 from app.screens.aids import Aids
@@ -14,6 +16,7 @@ from app.session.actions import Accept, Calculate, Cancel, ChooseMode, Enter, Mo
 from app.session.motion.guarding import hit
 from app.session.state import as_tuple
 from app.simulation.guard import Stop
+from app.simulation.route import route
 from app.simulation.world import default_world
 from app.units import from_mm, mm
 from tests.desk import plain, until
@@ -56,6 +59,22 @@ def test_the_ghost_is_reachable_free_of_collision_and_at_the_spike_and_the_arm_g
     assert np.allclose(desk.q, found.q)
     assert context.worker.idle()
     assert not context.stage.next_arm.visible  # it would only blur the arm
+
+
+def test_a_ghost_within_the_spike_is_gone_to_as_near_as_the_way_is_free(desk):
+    """One exercise in twenty ended here: no way there was free, and the key to the ghost stood out again and again."""
+    desk.fresh(robot="ur10e").does(lambda: desk.context.do(ChooseMode("touch", 4)))
+    found, context, view = proposal(desk), desk.context, desk.tool._next_touch
+    tip = context.world.tip(found.q)
+    deep = Pose.of(tip.rotation, tip.position + 0.012 * tip.rotation[:, 2])
+    within = context.world.bring(found.q, deep).q
+    assert route(context.world, context.drive.guard, context.q, within).kind == "press"
+    desk.does(lambda: (setattr(view, "proposal", replace(found, q=within)), setattr(view, "goal", within)))
+    desk.moves(view.go)
+    assert 0.005 < context.world.distance(desk.q) < 0.05 and "just before the ghost" in desk.said[1]
+    assert desk.tool._assist.rank == "main" and view.go_button.rank == "plain"
+    desk.moves(desk.tool._help)
+    assert context.world.touching(desk.q) and desk.tool._record.rank == "main"
 
 
 def test_the_lines_say_now_here_and_at_the_ghost(desk):
