@@ -18,7 +18,7 @@ _UNITS = (
 )  # fmt: skip
 _ONE = "|".join(sorted(_UNITS, key=len, reverse=True))
 _UNIT = rf"(?:{_ONE})(?:/(?:{_ONE}|A|K))?"
-_PARTED = re.compile(rf"(?<=\d) (?=(?:{_UNIT})(?![A-Za-z]))|(?<=[±≤≥]) (?=\d)")
+_PARTED = re.compile(rf"(?<=\d) (?=(?:{_UNIT})(?![A-Za-z]))|(?<=\d kg) (?=m(?:²|\b))|(?<=[±≤≥]) (?=\d)")
 #: A tag, or what is no text though it stands between two tags, or is copied or sent back as it stands; or a text.
 _IN_MARKUP = re.compile(r"<(style|script|textarea|pre|code)\b.*?</\1>|<[^>]*>|(?P<text>[^<]+)", re.DOTALL)
 #: A zero with a sign. What is cited, or part of a name, a date or a longer number, is none; in a column, after two

@@ -46,7 +46,19 @@ def test_what_is_no_zero_with_a_sign_stays(text):
 
 
 @pytest.mark.parametrize(
-    "text", ["0.2 mm", "12.5 °", "± 0.05 mm", "250 mm/s", "3 kg", "5 min", "0.3 毫米", "20 %"]
+    "text",
+    [
+        "0.2 mm",
+        "12.5 °",
+        "± 0.05 mm",
+        "250 mm/s",
+        "3 kg",
+        "5 min",
+        "0.3 毫米",
+        "20 %",
+        "0.0076 kg m",
+        "2 kg m²",
+    ],
 )
 def test_a_number_is_not_parted_from_its_unit(text):
     assert together(f"so {text} at") == f"so {text.replace(' ', NO_BREAK)} at"
