@@ -251,3 +251,19 @@ def test_where_both_tools_have_met_both_arms_are_in_sight(in_the_cell):
             for arm, q in zip(run.cell.arms, run.postures, strict=True)]  # fmt: skip
     eye = np.array(looks.position), np.array(looks.look_at)
     assert not len(outside(eye, np.vstack([*arms, run.drawn_tips()]), desk.context.stage.eyes.aspect))
+
+
+def test_an_arm_that_is_not_shown_does_not_move(in_the_cell):
+    """The tool's tab stayed open to who looked at two robots, and its keys sent an arm about that nobody saw."""
+    desk, _ = in_the_cell
+    tool, load = desk.view("deciding"), desk.view("_weigh")
+    until(lambda: tool._next_touch.proposal is not None, "the proposal")
+    stood = desk.q.copy()
+    play = desk.view("showing").showing.play
+    for job in (tool._next_touch.go, tool._help, load._propose, lambda: play("touch")):
+        desk.does(job)
+        assert desk.drive.how == "standing" and "another arm is shown" in desk.said[1], job
+    assert np.array_equal(desk.q, stood)
+    desk.press("Close the cell")
+    desk.moves(tool._next_touch.go)
+    assert not np.array_equal(desk.q, stood)
