@@ -18,13 +18,13 @@ _UNITS = (
 )  # fmt: skip
 _ONE = "|".join(sorted(_UNITS, key=len, reverse=True))
 _UNIT = rf"(?:{_ONE})(?:/(?:{_ONE}|A|K))?"
-_PARTED = re.compile(rf"(?<=\d) (?=(?:{_UNIT})(?![A-Za-z]))|(?<=[±≤≥]) (?=\d)")
-#: A tag, or what is no text though it stands between two tags; or a text.
-_IN_MARKUP = re.compile(r"<(style|script)\b.*?</\1>|<[^>]*>|(?P<text>[^<]+)", re.DOTALL)
+_PARTED = re.compile(rf"(?<=\d) (?=(?:{_UNIT})(?![A-Za-z]))|(?<=\d kg) (?=m(?:²|\b))|(?<=[±≤≥]) (?=\d)")
+#: A tag, or what is no text though it stands between two tags, or is copied or sent back as it stands; or a text.
+_IN_MARKUP = re.compile(r"<(style|script|textarea|pre|code)\b.*?</\1>|<[^>]*>|(?P<text>[^<]+)", re.DOTALL)
 #: A zero with a sign. What is cited, or part of a name, a date or a longer number, is none; in a column, after two
 #: spaces or at the beginning of a line, the figure keeps its place.
 _SIGNED = re.compile(
-    r"(?:(?P<pad>  |^ )|(?<![\w.'\"“‘`)\]-]))-(?P<zero>0(?:\.0+)?)(?!\.?\d|[eE][-+]?\d|\w*['\"”’`])",
+    r"(?:(?P<pad>  |^ )|(?<![\w.'\"“‘`)\]-])(?<!&#3[49];))-(?P<zero>0(?:\.0+)?)(?!\.?\d|[eE][-+]?\d|\w*['\"”’`])",
     re.MULTILINE,
 )
 

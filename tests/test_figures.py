@@ -46,7 +46,19 @@ def test_what_is_no_zero_with_a_sign_stays(text):
 
 
 @pytest.mark.parametrize(
-    "text", ["0.2 mm", "12.5 °", "± 0.05 mm", "250 mm/s", "3 kg", "5 min", "0.3 毫米", "20 %"]
+    "text",
+    [
+        "0.2 mm",
+        "12.5 °",
+        "± 0.05 mm",
+        "250 mm/s",
+        "3 kg",
+        "5 min",
+        "0.3 毫米",
+        "20 %",
+        "0.0076 kg m",
+        "2 kg m²",
+    ],
 )
 def test_a_number_is_not_parted_from_its_unit(text):
     assert together(f"so {text} at") == f"so {text.replace(' ', NO_BREAK)} at"
@@ -60,6 +72,14 @@ def test_words_after_a_number_may_stand_on_the_next_line(text):
 def test_tags_pictures_and_styles_stay_as_they_are():
     around = '<path d="M 0 5 m 3 4"/><style>p { margin: -0 3 mm }</style><p title="5 mm">'
     assert in_markup(f"{around}-0.0 mm</p>") == f"{around}0.0{NO_BREAK}mm</p>"
+
+
+def test_what_is_sent_back_or_copied_stays_as_it_stands_and_so_does_what_is_cited():
+    for name in ("textarea", "code", "pre"):
+        kept = f'<{name} name="x">load = -0.00 mm <b>5 mm</b></{name}>'
+        assert in_markup(f"{kept}<p>5 mm</p>") == f"{kept}<p>5{NO_BREAK}mm</p>"
+    cited = str(html.Markup.escape("'-0.00' is no mass, \"-0.0\" is none"))
+    assert in_markup(cited) == cited
 
 
 @pytest.mark.parametrize("number", ["0.2 mm", "-1.5 mm", "3.0 °"])

@@ -34,6 +34,9 @@ class _View:
         self._context = context
         self._run: Run | None = None
         self._by_itself = False  # what runs is the procedure, not a way by hand
+        self._begun = (
+            False  # a motion was begun that neither came to its end nor was told to have been stopped
+        )
         ui, t = context.ui, context.t
         names = tuple(name for name in robot_names() if robot_named(name).joint_count > 2)
         self._intro = ui.add_html(html.paragraph(t("base.intro"), testid="base-intro"))
@@ -141,32 +144,57 @@ class _View:
         run = self._run
         if run is None or self._context.worker.running(_MOTION):
             return
-        self.begin(self._measuring(run, whole), self._context.t("errand.base"), by_itself=True)
+        what = "base.hold_all" if whole else "base.hold_one"
+        self.begin(self._measuring(run, whole), self._context.t("errand.base"), what, by_itself=True)
 
-    def begin(self, motion: Iterator[None], errand: str, *, by_itself: bool = False) -> None:
-        """A motion of this cell; like every other it waits for the switch."""
-        self._context.drive.must_not_be_stopped()
-        self._context.drive.errand, self._by_itself = errand, by_itself
-        self._context.worker.animate(_MOTION, self._told(motion))
+    def begin(
+        self, motion: Iterator[None], errand: str, what: str = "base.hold_turn", *, by_itself: bool = False
+    ) -> None:
+        """A motion of this cell; like every other it waits for the switch, and `what` says what follows then."""
+        context = self._context
+        context.drive.must_not_be_stopped()
+        context.drive.errand, self._by_itself, self._begun = errand, by_itself, True
+        context.say("info", context.t(what))
+        context.worker.animate(_MOTION, self._told(motion))
         self._offer()
-        self._context.on_page()
+        context.on_page()
 
     def _told(self, motion: Iterator[None]) -> Iterator[None]:
-        yield from motion
+        try:
+            yield from motion
+        except Exception:
+            self._begun = False  # what failed says why
+            raise
+        self._begun = False
         # As a job of its own: until this is through, the motion counts as running, and the keys wait for its end.
         self._context.worker.post(self._offer)
 
     def _halt(self) -> None:
         """The procedure ends where it is; what was measured stays."""
         self._context.drive.cancel()
-        self._context.say("info", self._context.t("base.stopped"))
+        self._tell_stopped()
         self.show()
 
+    def _tell_stopped(self) -> None:
+        """Whoever gave a motion up, here or in the message line, reads there no longer what it waited for."""
+        if self._begun and not self._context.worker.running(_MOTION):
+            self._begun = False
+            if not self._context.drive.enabling.stopped:  # an emergency stop says so itself
+                self._context.say("info", self._context.t("base.stopped"))
+
     def _measuring(self, run: Run, whole: bool) -> Iterator[None]:
-        every = from_deg(float(self._every.value))
-        while run.wizard.step is not None:
+        every, context = from_deg(float(self._every.value)), self._context
+        while (step := run.wizard.step) is not None:
+            if run.moves() and not context.drive.live:  # what stands already is measured without the switch
+                context.say("info", context.t("base.hold_all" if whole else "base.hold_one"))
+                while not context.drive.live:
+                    yield
+            context.say("info", context.t("base.measuring", step=cards.named(context, step)))
             yield from run.by_itself(every, self.show)
             if not whole:
+                if (after := run.wizard.step) is not None:
+                    names = {"step": cards.named(context, step), "next": cards.named(context, after)}
+                    context.say("good", context.t("base.step_done", **names))
                 break
         self.finish(run)
 
@@ -183,7 +211,7 @@ class _View:
     def _meet(self) -> None:
         run = self._run
         if run is not None and run.relation is not None and not self._context.worker.running(_MOTION):
-            self.begin(run.meet(self._met), self._context.t("errand.meet"), by_itself=True)
+            self.begin(run.meet(self._met), self._context.t("errand.meet"), "base.hold_meet", by_itself=True)
 
     def _met(self, meeting: Meeting) -> None:
         t = self._context.t
@@ -231,6 +259,7 @@ class _View:
 
     def numbers(self) -> None:
         """The arm moved, or was stopped: with it the procedure."""
+        self._tell_stopped()
         self._offer()
 
     def _offer(self) -> None:

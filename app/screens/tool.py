@@ -181,10 +181,10 @@ class _View:
 
     def _stand_out(self) -> None:
         """The key that is pressed next stands out from those beside it."""
-        step, proposal = next_step(self.context), self._next_touch.proposal
+        step = next_step(self.context)
         if step is None or not self._record.visible:
             return
-        key = leads(self.context, step, None if proposal is None else proposal.q)
+        key = leads(self.context, step, self._next_touch.goal)
         for button, name in (
             (self._next_touch.go_button, GHOST),
             (self._assist, HAND),

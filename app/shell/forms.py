@@ -16,6 +16,7 @@ from starlette.requests import HTTPConnection, Request
 from starlette.responses import HTMLResponse, Response
 
 from app.errors import TeachframeError
+from app.figures import in_markup
 from app.people.limits import FORM
 from app.shell.entrance import Entrance
 from app.shell.security import COOKIE, FORM_COOKIE, HEADERS, LOOK_COOKIE
@@ -67,7 +68,7 @@ def page(
     """
     language = language_of(request)
     cookie = request.cookies.get(FORM_COOKIE) or secrets.token_urlsafe(24)
-    content = _PAGES.get_template(f"{name}.html").render(
+    written = _PAGES.get_template(f"{name}.html").render(
         t=lambda key, **details: text(key, language, **details),
         language=language,
         languages=languages(),
@@ -79,7 +80,8 @@ def page(
         **fields,
     )
     headers = {**HEADERS, "Content-Security-Policy": policy, "Cache-Control": "no-store"}
-    answer = HTMLResponse(content, status, headers)
+    # What is read is put as it is read; what stands in fields comes back and stays as it was typed.
+    answer = HTMLResponse(in_markup(written), status, headers)
     entrance.set(answer, request, FORM_COOKIE, cookie, _HOUR)
     if request.query_params.get("language") in languages():
         remember(answer, request, language)

@@ -40,6 +40,11 @@ def frame(read: Read) -> Read:
     )
 
 
+def seat(of_person: dict[str, str]) -> dict[str, str]:
+    """What somebody of a class does, as it follows on the class's page."""
+    return {key: words if key in ("person", "state") else together(words) for key, words in of_person.items()}
+
+
 def texts(of_page: dict[str, str]) -> dict[str, str]:
     """The page's own words."""
     return {key: together(words) for key, words in of_page.items()}

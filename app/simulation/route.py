@@ -11,9 +11,12 @@ from app.geometry import Pose
 from app.kinematics import solve_ik
 from app.simulation.guard import Guard, Stop
 from app.simulation.world import World
+from app.units import from_mm
 
 #: How far the tool backs off, as shares of the arm's reach: along its own axis, and upwards.
 _BACK, _UP = 0.06, 0.12
+#: How far before a place the tip may stop, along the tool [m].
+_SHORT = (from_mm(10.0), from_mm(20.0), from_mm(40.0))
 
 
 def route(world: World, guard: Guard, start: np.ndarray, end: np.ndarray) -> list[np.ndarray] | Stop:
@@ -26,6 +29,21 @@ def route(world: World, guard: Guard, start: np.ndarray, end: np.ndarray) -> lis
         if all(guard.free(a, b) is None for a, b in pairwise(stops)):
             return stops[1:]
     return straight
+
+
+def short_of(world: World, guard: Guard, start: np.ndarray, end: np.ndarray) -> np.ndarray | None:
+    """A pose just before `end` to which a way is free, where the tip would press at `end` (n,); None where none is.
+
+    A place that was worked out for another tool than the one that is there may lie within the spike.
+    """
+    straight = route(world, guard, start, end)
+    if not isinstance(straight, Stop) or straight.kind == "hit":
+        return None
+    for length in _SHORT:
+        before = _shifted(world, end, "tool", -length)
+        if before is not None and not isinstance(route(world, guard, start, before), Stop):
+            return before
+    return None
 
 
 def _ways_round(world: World, start: np.ndarray, end: np.ndarray) -> Iterator[list[np.ndarray]]:

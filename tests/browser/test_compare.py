@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from app.apart import GivenUpError
-from app.screens._compare import finding
+from app.diagnosis.result import Diagnosis, Leftover, Noise, Quality
+from app.screens._compare import finding, plots
 
 pytestmark = pytest.mark.browser
 
@@ -55,6 +56,40 @@ def test_a_hidden_fault_is_found_and_put_into_the_simulation(sit_down, brisk):
         person.click("Report")
     assert waiting.value.suggested_filename.endswith(".report.html")
     assert not person.faults
+
+
+#: Texts of the bars that stand on one line nearer than an eye parts them [words, words, px].
+_TOUCHING = """([markup, wide]) => {
+    const place = Object.assign(document.createElement("div"), { innerHTML: markup });
+    document.querySelector("#screens .screen:not([hidden])").prepend(place);
+    place.style.width = wide + "px";
+    const texts = [...place.querySelectorAll("svg text")].map((one) => [one.textContent, one.getBoundingClientRect()]);
+    const frame = place.querySelector("svg").getBoundingClientRect();
+    const near = texts.flatMap(([a, one]) => texts
+        .filter(([, other]) => other.left > one.left && Math.abs(one.bottom - other.bottom) < 5
+            && other.left - one.right < GAP)
+        .map(([b, other]) => [a, b, other.left - one.right]));
+    near.push(...texts.filter(([, one]) => one.right > frame.right).map(([a]) => [a, "edge", 0]));
+    place.remove();
+    return near;
+}"""
+GAP_PX = 6
+
+
+@pytest.mark.parametrize("unit", ["mm", "Nm"])
+def test_the_unit_of_the_bars_keeps_off_the_last_number(sit_down, unit):
+    """The number of a tick at the very end ran into the unit behind it, in a panel of any width."""
+    person = sit_down()
+    person.screen("compare")
+    script = _TOUCHING.replace("GAP", str(GAP_PX))
+    for most in (0.25, 0.3, 1.25, 2.5, 12.5, 1000.0, 1250.0):
+        quality = Quality(most, 0.99 * most, unit)
+        drawn = Diagnosis(
+            "x.csv", "touch", "ur10e", 9, "named", Noise(0.1 * most, unit, "stated"), quality, quality, (), (),
+            Leftover(1.0, {}), (), 0.0,
+        )  # fmt: skip
+        for wide in (280, 324, 360, 700):
+            assert not (near := person.page.evaluate(script, [plots.bars(drawn), wide])), (most, wide, near)
 
 
 def log_file(folder, case):

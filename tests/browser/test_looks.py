@@ -211,3 +211,25 @@ def test_every_fact_of_the_top_line_that_is_shown_says_something(sit_down, brisk
     assert len(shown) >= 5 and all(shown)
     robot = person.page.locator("#robot")
     assert robot.evaluate("one => one.scrollHeight <= one.clientHeight + 1"), "maker and type are cut off"
+
+
+@pytest.mark.parametrize("size", list(SIZES))
+def test_each_tab_has_one_line_also_when_it_is_open(sit_down, size):
+    """The open one is bold, and "Two robots" broke over two lines beside seven others."""
+    width, height = SIZES[size]
+    person = sit_down("jby50", screen={"width": width, "height": height}, touch=size in ("tablet", "phone"))
+    if size == "phone":
+        person.page.locator("#switch button[data-part=work]").click()
+    for key in TABS:
+        person.screen(key)
+        tab = person.page.locator(f"#tabs button[data-key={key}][aria-selected=true]")
+        tab.wait_for()
+        lines, cut = tab.evaluate(
+            """one => {
+                const words = document.createRange();
+                words.selectNodeContents(one);
+                const tops = new Set([...words.getClientRects()].map((box) => Math.round(box.top)));
+                return [tops.size, one.scrollWidth - one.clientWidth];
+            }"""
+        )
+        assert lines == 1 and cut <= 0, (key, lines, cut)

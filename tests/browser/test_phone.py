@@ -92,6 +92,30 @@ def test_what_two_robots_give_is_in_view_with_what_is_done_next(sit_down, brisk)
     assert verdict["y"] >= tabs["y"] + tabs["height"]
 
 
+def test_neither_the_keys_of_the_views_nor_the_two_robots_hide_each_other(sit_down, brisk):
+    """The keys stood over the first robot: in a scene so low there is no corner that is free in every view."""
+    person = sit_down("irb120", screen=PHONE, touch=True)
+    person.page.locator("#switch button[data-part=work]").click()
+    person.screen("base")
+    person.click("Open the cell")
+    person.reads("base-plan", "Robot 1")
+    person.scene_is_there()
+    scene, keys = (person.page.locator(place).bounding_box() for place in ("#scene", "#views"))
+    assert keys["x"] + keys["width"] <= scene["x"]
+    for key in person.page.locator("#views button").all():
+        assert min(key.bounding_box()["width"], key.bounding_box()["height"]) >= TARGET_PX
+    run = person.view("run").run
+    arms = [arm.T_world_base.apply(arm.robot.chain.frames(q[None]).joint_positions[0])
+            for arm, q in zip(run.cell.arms, run.postures, strict=True)]  # fmt: skip
+    left, right = scene["x"], scene["x"] + scene["width"]
+
+    def seen():
+        at = [person.on_page(point) for point in np.vstack(arms)]
+        return all(left < x < right and scene["y"] < y < scene["y"] + scene["height"] for x, y in at)
+
+    person.until(seen, "both arms between the edges of the scene")
+
+
 def touch(context, tilt):
     """The arm stands at the spike, tilted so, without a way."""
     world, home = context.world, context.model.home

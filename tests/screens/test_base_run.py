@@ -8,6 +8,7 @@ from app.scene.instead import Instead
 from app.screens._base.run import Run
 from app.simulation.tracker_cell import make_cell
 from app.simulation.tracker_meeting import meet
+from tests.desk import until
 
 SIGMAS = 4.0
 STEP = np.radians(20)
@@ -140,6 +141,28 @@ def test_a_step_in_which_nothing_moves_gives_its_keys_back(in_the_cell):
     assert {"Run this step", "By hand"} <= desk.shown() and "Stop the procedure" not in desk.shown()
 
 
+def test_the_message_says_what_is_waited_for_and_then_what_is_done(in_the_cell):
+    """'The tracker is ready' stood beside a procedure that waited for the switch, and while it ran."""
+    desk, view = in_the_cell
+    desk.press("Run this step")
+    desk.rests()
+    assert "fixed points: measured. Next: Robot 1 · zero position" in desk.said[1]
+    view._every.value = 45.0
+    desk.does(lambda: view._start(whole=True))
+    until(lambda: view.run.moves(), "the arc")
+    until(lambda: desk.said[1].startswith("Waits for the switch"), "what is waited for")
+    with desk.holding():
+        until(lambda: "axis 1 alone: it is being measured" in desk.said[1], "what is done")
+    desk.live.cancel()
+    desk.idle()
+    assert "was stopped" in desk.said[1] and desk.drive.how == "standing"
+    desk.does(lambda: view._start(whole=True))
+    with desk.holding():
+        desk.rests()
+    desk.press("Send both tools to one point")
+    assert desk.said[1].startswith("Waits for the switch") and "both tools go to one point" in desk.said[1]
+
+
 def test_by_hand_too_nothing_moves_unless_the_switch_is_held(in_the_cell):
     desk, view = in_the_cell
     for _ in range(2):  # nests, zero position
@@ -151,7 +174,7 @@ def test_by_hand_too_nothing_moves_unless_the_switch_is_held(in_the_cell):
     for _ in range(5):
         desk.does(lambda: None)
     assert np.array_equal(view.run.postures[0], stood) and desk.drive.how == "waiting"
-    assert desk.drive.errand == "axis 1 of robot 1"
+    assert desk.drive.errand == "axis 1 of robot 1" and desk.said[1].startswith("Waits for the switch")
     with desk.holding():
         desk.rests()
     assert view.run.postures[0][0] == pytest.approx(np.radians(40.0))
@@ -228,3 +251,19 @@ def test_where_both_tools_have_met_both_arms_are_in_sight(in_the_cell):
             for arm, q in zip(run.cell.arms, run.postures, strict=True)]  # fmt: skip
     eye = np.array(looks.position), np.array(looks.look_at)
     assert not len(outside(eye, np.vstack([*arms, run.drawn_tips()]), desk.context.stage.eyes.aspect))
+
+
+def test_an_arm_that_is_not_shown_does_not_move(in_the_cell):
+    """The tool's tab stayed open to who looked at two robots, and its keys sent an arm about that nobody saw."""
+    desk, _ = in_the_cell
+    tool, load = desk.view("deciding"), desk.view("_weigh")
+    until(lambda: tool._next_touch.proposal is not None, "the proposal")
+    stood = desk.q.copy()
+    play = desk.view("showing").showing.play
+    for job in (tool._next_touch.go, tool._help, load._propose, lambda: play("touch")):
+        desk.does(job)
+        assert desk.drive.how == "standing" and "another arm is shown" in desk.said[1], job
+    assert np.array_equal(desk.q, stood)
+    desk.press("Close the cell")
+    desk.moves(tool._next_touch.go)
+    assert not np.array_equal(desk.q, stood)

@@ -53,9 +53,13 @@ class Light:
         colour, action = phrase(f"light.{self.colour}"), _sentence(self.todo.text(language))
         return phrase("light.said", colour=colour, reason=self.why, action=action).text(language)
 
-    def sentence(self, language: str = FALLBACK) -> str:
-        """Reason and what to do next, for a place that shows the colour itself."""
-        reason, action = _sentence(self.why.text(language)), _sentence(self.todo.text(language))
+    def sentence(self, language: str = FALLBACK, todo: str = "") -> str:
+        """Reason and what to do next, for a place that shows the colour itself.
+
+        Args:
+            todo: what is next in the meantime, without a full stop; empty for what the result asks for.
+        """
+        reason, action = _sentence(self.why.text(language)), todo or _sentence(self.todo.text(language))
         return phrase("light.sentence", reason=reason, action=action).text(language)
 
 

@@ -23,8 +23,8 @@ class Procedure(Protocol):
         """What is being measured."""
         ...
 
-    def begin(self, motion: Iterator[None], errand: str) -> None:
-        """A motion that waits for the switch."""
+    def begin(self, motion: Iterator[None], errand: str, what: str) -> None:
+        """A motion that waits for the switch; `what` says what follows then."""
         ...
 
     def show(self) -> None:
@@ -78,7 +78,8 @@ class ByHand:
         if run is None or (step := run.wizard.step) is None or not step.axis:
             return
         errand = self._context.t("errand.turn", axis=step.axis, robot=step.robot)
-        self._procedure.begin(self._there(run, run.turning(from_deg(float(degrees))), self._look), errand)
+        way = self._there(run, run.turning(from_deg(float(degrees))), self._look)
+        self._procedure.begin(way, errand, "base.hold_turn")
 
     def _there(self, run: Run, way: Iterator[None], then: Callable[[Run], None]) -> Iterator[None]:
         yield from way
@@ -102,7 +103,7 @@ class ByHand:
             self._take(run)
         else:
             errand = self._context.t("errand.zero")
-            self._procedure.begin(self._there(run, home, self._take), errand)
+            self._procedure.begin(self._there(run, home, self._take), errand, "base.hold_zero")
 
     def _take(self, run: Run) -> None:
         sight = run.measure()

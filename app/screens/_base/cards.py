@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from app.calibration.base.frame import in_parent
+from app.calibration.base.wizard import Step
 from app.calibration.result import Warning_
 from app.estimation import HALF
 from app.panel import markup as html
@@ -22,15 +23,15 @@ def plan(context: Context, run: Run) -> str:
     rows = []
     for k, step in enumerate(run.wizard.steps):
         mark = "●" if k < run.wizard.index else "▶" if k == run.wizard.index else "○"
-        kind = (
-            context.t(f"base.step_{step.kind}", axis=step.axis)
-            if step.axis
-            else context.t(f"base.step_{step.kind}")
-        )
         count = len(run.wizard.of(step.key))
-        robot = context.t("base.robot_number", number=step.robot)
-        rows.append((f"{mark}  {robot} · {kind}", str(count) if count else ""))
+        rows.append((f"{mark}  {named(context, step)}", str(count) if count else ""))
     return html.table(rows, testid="base-plan")
+
+
+def named(context: Context, step: Step) -> str:
+    """A step as the list has it."""
+    kind = context.t(f"base.step_{step.kind}", **({"axis": step.axis} if step.axis else {}))
+    return f"{context.t('base.robot_number', number=step.robot)} · {kind}"
 
 
 def verdict(context: Context, run: Run) -> str:

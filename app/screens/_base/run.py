@@ -131,6 +131,11 @@ class Run:
         rest = self.now.arms[arm].rest
         return None if np.array_equal(self.postures[arm], rest) else self._moving(arm, rest)
 
+    def moves(self) -> bool:
+        """True where the step at hand moves its arm: an arc, or the zero position where it is not there yet."""
+        step = self._step()
+        return step.kind == TURN or (step.kind != NESTS and self.homing() is not None)
+
     def _step(self) -> Step:
         step = self.wizard.step
         assert step is not None

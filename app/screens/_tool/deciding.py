@@ -38,13 +38,13 @@ class Deciding:
             self._again = ui.add_buttons(
                 t("tool.then"), (t("tool.verify"), t("tool.again")), visible=False, rank="main"
             )
-            self.verifying = Verifying(context)
+            self.verifying = Verifying(context, self._say_next)
             self.page = ui.add_html("")
         self._doubted: object = None  # a result that the light warned of, and that was to be accepted once
         decide = {t("tool.accept"): self.accept, t("tool.sure"): self.accept, t("tool.cancel"): self._cancel}
         context.chosen(self._decide, lambda label: decide[label]())
-        then = {t("tool.verify"): self.verifying.run, t("tool.again"): self._cancel}
-        context.chosen(self._again, lambda label: then[label]())
+        self._then = {t("tool.verify"): self.verifying.run, t("tool.again"): self._cancel}
+        context.chosen(self._again, lambda label: self._then[label]())
 
     def take_away(self) -> None:
         """Export and report, where the caller has come to: who looks at a verdict wants its points beside it first."""
@@ -85,8 +85,28 @@ class Deciding:
             self._doubted = None
             self._decide.options = (self._context.t("tool.accept"), self._context.t("tool.cancel"))
         if state.result is not None:
-            self.light.content = light_html(state.result, self._context.language)
             self.page.content = result_html(self._context, state.result)
+        self._say_next()
+
+    def _say_next(self) -> None:
+        """The light's line says what is next now: once accepted that is the turn, and after the turn what it showed."""
+        context, good = self._context, self.verifying.good
+        state, t = context.session.state, context.t
+        if state.result is None:
+            return
+        words = ""
+        if accepted(state):
+            if good is None:
+                words = t("tool.then_finish" if state.running is not None else "tool.then_verify")
+            elif good:
+                words = t("tool.then_finish_only" if state.running is not None else "tool.then_use")
+            else:
+                words = t("tool.then_again")
+        self.light.content = light_html(state.result, context.language, words)
+        # The key that was pressed and has shown that all is well is not the next one any more.
+        self._again.rank = "plain" if good else "main"
+        verify, again = self._then
+        self._again.options = (again, verify) if good is False else (verify, again)
 
     def numbers(self) -> None:
         """The arm moved."""

@@ -20,6 +20,7 @@ from app.screens._tool.strokes import strokes_free
 from app.screens._tool.words import Words
 from app.session import SessionState
 from app.session.motion.guarding import hit
+from app.simulation.route import short_of
 from app.simulation.world import default_tool
 from app.units import mm
 
@@ -53,6 +54,7 @@ class NextTouch:
         self._made = np.zeros((0, 3, 3))
         self._step: Step | None = None
         self.proposal: Proposal | None = None
+        self.goal: np.ndarray | None = None  # where the key leads: the ghost, or short of it
         self._refused = ""
         self._closed, self._written = False, ""
 
@@ -75,7 +77,7 @@ class NextTouch:
             return
         self._asked, self._step, self._written = asked, step, ""
         self._made = np.array([c.T_base_flange.rotation for c in touches]).reshape(-1, 3, 3)
-        self.proposal, self._refused = None, ""
+        self.proposal, self.goal, self._refused = None, None, ""
         self._lines.visible = self.go_button.visible = self.go_button.disabled = True
         self._ask(state, asked)
         self.numbers()
@@ -91,13 +93,20 @@ class NextTouch:
         if proposal is None or proposal.q is None:
             return
         title = self._title()
+        # The ghost holds the tool that is drawn: with the one that is there its tip may be within the spike.
+        short = short_of(context.world, context.drive.guard, context.q, proposal.q)
+        self.goal = proposal.q if short is None else short
 
         def arrived() -> None:
-            # Where the light says that the tip touches, the key that stands out is the one that records.
-            key = "touched" if context.aids.light and context.world.touching(context.q) else "proposed"
+            if short is not None:
+                context.say("info", context.t("message.proposed_short", title=title))
+                return
+            # Where no hand helps and the light says that the tip touches, it is recorded next.
+            light, hand = context.aids.light, context.aids.touch
+            key = "touched" if light and not hand and context.world.touching(context.q) else "proposed"
             context.say("info", context.t(f"message.{key}", title=title))
 
-        context.go(proposal.q, arrived, context.t("errand.ghost", title=title))
+        context.go(self.goal, arrived, context.t("errand.ghost", title=title))
 
     def close(self) -> None:
         """The page goes away: what is still being worked out is not shown."""
@@ -149,7 +158,7 @@ class NextTouch:
             if found is None or gone():
                 return
             if isinstance(found, Proposal):
-                self.proposal = found
+                self.proposal, self.goal = found, found.q
                 context.stage.next_arm.show("tool", found.q, self._title())
             else:
                 said = found.said
@@ -162,7 +171,7 @@ class NextTouch:
         context.background(work, done)
 
     def _put_away(self) -> None:
-        self._asked, self._step, self.proposal = (), None, None
+        self._asked, self._step, self.proposal, self.goal = (), None, None, None
         self._lines.visible = self.go_button.visible = False
         self._context.stage.next_arm.show("tool", None)
 

@@ -59,7 +59,8 @@ def play(context: Context, action: LoadPoints) -> None:
             q = found.q
         stops.append(q)
         titles.append(words.step(step).title)
-    if len(stops) < len(state.steps):  # another arm's points: nothing to show, but the numbers hold
+    # Another arm's points, or another arm is looked at: nothing to show, but the numbers hold.
+    if len(stops) < len(state.steps) or context.seen is not None:
         calculate(context)
         return
     context.say("info", context.t("message.loading", source=action.source, count=len(stops)))

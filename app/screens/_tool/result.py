@@ -21,9 +21,9 @@ if TYPE_CHECKING:
     from app.screens.context import Context
 
 
-def light_html(solved: Solved, language: str) -> str:
-    """The traffic light with its reason and what to do next."""
-    return html.light(solved.light.colour, solved.light.sentence(language))
+def light_html(solved: Solved, language: str, todo: str = "") -> str:
+    """The traffic light with its reason and what to do next: `todo`, where that is not the result's own any more."""
+    return html.light(solved.light.colour, solved.light.sentence(language, todo))
 
 
 def named(name: str, sentence: str) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -27,10 +28,12 @@ class Verifying:
 
     Args:
         context: where it is shown.
+        told: hears that a turn has begun or has shown something.
     """
 
-    def __init__(self, context: Context):
-        self._context = context
+    def __init__(self, context: Context, told: Callable[[], object] = lambda: None):
+        self._context, self._told = context, told
+        self.good: bool | None = None  # what the turn about the result at hand has shown; None before one
         self._text = context.ui.add_html("", visible=False)
         self._of: object = None
         self._done = False
@@ -72,7 +75,8 @@ class Verifying:
                 context.say("warning", context.t("message.not_reached", reason=why))
                 return
             self.found, self._of, self._done = found, solved, False
-            self._text.visible = False
+            self._text.visible, self.good = False, None
+            self._told()
             context.stage.view("close")
             stops = [*found.joints[::_EVERY], found.joints[-1]]
 
@@ -94,7 +98,7 @@ class Verifying:
     def refresh(self, state: SessionState) -> None:
         """Takes the trace away with the result it belongs to."""
         if self.found is not None and (state.result is not self._of or not accepted(state)):
-            self.found = None
+            self.found = self.good = None
             self._text.visible = False
             self._context.stage.show_trace(None, state)
 
@@ -118,13 +122,14 @@ class Verifying:
         self._trace(found)
         self._done = True
         words = self._sentence(found)
-        good = found.good and not found.stopped
+        self.good = good = bool(found.good) and not found.stopped
         context.say("good" if good else "warning", words)
         said = html.light("green" if good else "yellow", words, testid="verified")
         if context.world.picture is None:
             said += html.paragraph(self._legend(found), faint=True, testid="trace")
         self._text.content = said
         self._text.visible = True
+        self._told()
 
     def _trace(self, found: Verification, until: int | None = None) -> None:
         """Draws the trace; not in an exercise: from the true tip's way the hidden tool point could be computed."""

@@ -126,6 +126,7 @@ class Showing:
         """Plays one mode: its points are loaded, the arm goes to each, the result is calculated."""
         context, mode = self._context, modes()[key]
         context.drive.must_not_be_stopped()
+        context.drive.must_be_seen()
         self.stop()
         if context.session.state.robot != FIRST_ROBOT:
             if context.session.state.captures:

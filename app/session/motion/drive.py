@@ -38,6 +38,8 @@ class Voice(Protocol):
         """Of what is said."""
         ...
 
+    seen: Callable[[], Any] | None  # an arm that is shown in this one's place; None for none
+
     def t(self, key: str, **fields: Any) -> str:
         """A text in the operator's language."""
         ...
@@ -142,6 +144,11 @@ class Drive:
         if self.enabling.stopped:
             raise ActionRefusedError(self.voice.t("message.e_stop"))
 
+    def must_be_seen(self) -> None:
+        """Raises ActionRefusedError while another arm is shown in this one's place: nobody would see what moves."""
+        if self.voice.seen is not None:
+            raise ActionRefusedError(self.voice.t("message.other_arm"))
+
     def stop(self) -> None:
         """Emergency stop; may come from any thread, and does not wait in a queue."""
         self.enabling.stop()
@@ -183,6 +190,7 @@ class Drive:
             guarded: it stops before what it would hit.
         """
         self.must_not_be_stopped()
+        self.must_be_seen()
         self.cancel()
         self.errand = errand
         self.worker.animate("move", self._travel(stops, arrived, rest, checked, guarded))

@@ -17,6 +17,7 @@ from app.classroom.progress import Lesson
 from app.classroom.working import STATES
 from app.people import Person
 from app.session.report import moment
+from app.shell import readable
 from app.shell.classroom.front import Asked, Front
 from app.shell.security import HEADERS
 from app.texts import text
@@ -79,6 +80,7 @@ class Classes:
         lessons = await asyncio.to_thread(self._room.lessons, at.id)
         persons = await asyncio.to_thread(self._room.members, at.id)
         news = await asyncio.to_thread(self._news, asked, lessons, persons)
+        news["seats"] = list(map(readable.seat, news["seats"]))
         return JSONResponse(news, headers={**HEADERS, "Cache-Control": "no-store"})
 
     async def _change(self, asked: Asked) -> Response:

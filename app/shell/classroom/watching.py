@@ -13,6 +13,7 @@ from starlette.websockets import WebSocket, WebSocketDisconnect
 from app.classroom.hints import LONGEST
 from app.errors import TeachframeError
 from app.people import Person
+from app.shell import readable
 from app.shell.bridge import scene_page, watch_scene
 from app.shell.classroom.front import Asked, Front, NotHereError
 from app.shell.coming_in import to_login
@@ -96,7 +97,7 @@ class Watching:
         try:
             while not live.closed:
                 news.clear()
-                figures = said(live.read())
+                figures = said(readable.frame(live.read()))
                 if figures != last:
                     last = figures
                     await page.send_text(figures)

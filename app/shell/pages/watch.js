@@ -8,7 +8,7 @@ function show(read) {
   const state = $("state");
   put(state, read.state);
   state.className = "pill " + read.how;
-  put($("facts-line"), [read.robot, read.tool, read.override + " %"].join(" · "));
+  put($("facts-line"), [read.robot, read.tool, read.override + "\u00a0%"].join(" · "));
   pairs($("axes"), read.axes.map((axis) => [axis.name, axis.value]));
   put($("of"), read.of);
   pairs($("pose"), read.pose);

@@ -2,11 +2,13 @@
 
 import threading
 import time
+from dataclasses import replace
 
 import numpy as np
 
 from app.calibration.modes import mode
 from app.calibration.next_touch import predicted_error, propose
+from app.geometry import Pose
 from app.kinematics import load_robot
 from app.screens._tool import next_touch, verifying
 from app.screens.aids import Aids
@@ -14,6 +16,7 @@ from app.session.actions import Accept, Calculate, Cancel, ChooseMode, Enter, Mo
 from app.session.motion.guarding import hit
 from app.session.state import as_tuple
 from app.simulation.guard import Stop
+from app.simulation.route import route
 from app.simulation.world import default_world
 from app.units import from_mm, mm
 from tests.desk import plain, until
@@ -56,6 +59,22 @@ def test_the_ghost_is_reachable_free_of_collision_and_at_the_spike_and_the_arm_g
     assert np.allclose(desk.q, found.q)
     assert context.worker.idle()
     assert not context.stage.next_arm.visible  # it would only blur the arm
+
+
+def test_a_ghost_within_the_spike_is_gone_to_as_near_as_the_way_is_free(desk):
+    """One exercise in twenty ended here: no way there was free, and the key to the ghost stood out again and again."""
+    desk.fresh(robot="ur10e").does(lambda: desk.context.do(ChooseMode("touch", 4)))
+    found, context, view = proposal(desk), desk.context, desk.tool._next_touch
+    tip = context.world.tip(found.q)
+    deep = Pose.of(tip.rotation, tip.position + 0.012 * tip.rotation[:, 2])
+    within = context.world.bring(found.q, deep).q
+    assert route(context.world, context.drive.guard, context.q, within).kind == "press"
+    desk.does(lambda: (setattr(view, "proposal", replace(found, q=within)), setattr(view, "goal", within)))
+    desk.moves(view.go)
+    assert 0.005 < context.world.distance(desk.q) < 0.05 and "just before the ghost" in desk.said[1]
+    assert desk.tool._assist.rank == "main" and view.go_button.rank == "plain"
+    desk.moves(desk.tool._help)
+    assert context.world.touching(desk.q) and desk.tool._record.rank == "main"
 
 
 def test_the_lines_say_now_here_and_at_the_ghost(desk):
@@ -120,10 +139,25 @@ def test_verifying_draws_the_trace_says_the_wander_and_gives_way_when_the_arm_is
     off = np.linalg.norm(desk.state.result.result.tool_point - desk.context.world.T_flange_tool_true.position)
     assert 0.0 < found.wander <= 2.0 * np.sin(np.radians(45.0) / 2) * off + from_mm(0.01)
     assert f"{mm(found.wander):.2f} mm" in plain(desk.tool.deciding.verifying._text.content)
+    assert "Accepted and verified: the tool can be used" in desk.read()
+    assert desk.tool.deciding._again.rank == "plain"  # what was done is not what is next
     desk.place(desk.q + 0.1)
     assert not stage.trace.drawn and not stage.handle.visible  # the view is a near one
     desk.does(lambda: stage.view("whole"))
     assert stage.handle.visible
+
+
+def test_the_light_says_what_is_next_and_not_what_was_done(desk):
+    """'Accept, then verify' stood beside the tool that was accepted, also where an exercise waited to be finished."""
+    desk.fresh(robot="ur10e").does(lambda: desk.context.do(ChooseMode("touch", 4)))
+    touches(desk, 4)
+    desk.does(lambda: desk.context.do(Calculate()))
+    assert "Accept, then verify." in desk.read()
+    desk.does(lambda: desk.context.do(Accept("torch")))
+    assert "Accept, then" not in desk.read() and "Accepted: now verify by turning" in desk.read()
+    desk.does(lambda: desk.context.do(Record("touch1", as_tuple(desk.q))))
+    desk.does(lambda: desk.context.do(Calculate()))
+    assert "Accepted" not in desk.read()  # another result, which nobody has accepted
 
 
 def test_a_pose_in_the_fence_is_neither_proposed_nor_turned_at():
@@ -159,5 +193,8 @@ def test_a_typed_tool_that_is_off_is_sent_back_though_nothing_was_predicted(desk
     assert "wandered" in said and "nan" not in said
     assert "MORE than 0.8 mm. Teach again" in said and desk.said[0] == "warning"
     assert desk.tool.deciding.verifying.found.wander > from_mm(1.0)
+    assert "The turn did not confirm it: teach again" in desk.read()
+    again = desk.tool.deciding._again
+    assert again.rank == "main" and again.options == ("Teach again", "Verify")
     desk.does(lambda: desk.context.do(Cancel()))
     assert mode("direct").default_touches == 0 and not desk.context.stage.trace.drawn

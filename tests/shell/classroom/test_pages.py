@@ -11,6 +11,7 @@ import pytest
 
 from app.classroom.presence import Presence
 from app.classroom.working import STATES
+from app.figures import NO_BREAK
 from app.training.exercise import exercise, exercise_text
 from tests.shell.classroom.conftest import ORIGIN, plain
 from tests.training.trainee import GOOD
@@ -270,3 +271,23 @@ def test_what_was_not_ticked_is_not_said_to_be_done(trainer, people, at, ada):
     deleted = trainer.post(f"/class/{at.id}", do="delete")
     assert "done" not in away.headers["location"] + deleted.headers["location"]
     assert people.classes.of(ada.person.id)
+
+
+def test_figures_are_read_on_every_page_of_a_class_as_on_the_pendant(hub, trainer, at, ada):
+    """A number stood at the end of one line and its unit on the next, and a trend of nothing had a sign."""
+    hub.room.assignments.give(at.id, "first_tool")
+    (lesson,) = hub.room.lessons(at.id)
+    for seed in (3, 3):
+        scored(hub, ada, seed=seed)
+    now = time.time()
+    hub.room.presences.keep([Presence(ada.person.owner, "s", "stuck", now - 240.0, now, "first_tool", 2, 4)])
+    hub.room.made.keep(trainer.person.id, exercise_text(exercise("first_tool")))
+    one = f"/class/{at.id}"
+    places = (one, f"{one}/lesson/{lesson.id}", f"{one}/person/{ada.person.id}", "/exercises/new")
+    pages = [trainer.get(place).text for place in places] + [ada.get("/lessons").text]
+    words = [re.sub(r"<(textarea|code)\b.*?</\1>|<[^>]*>", "", page, flags=re.DOTALL) for page in pages]
+    for page in words:
+        assert re.search(rf"\d{NO_BREAK}(mm|min|%)", page), page
+        assert not re.search(r"\d (mm|min|kg|°|%)|(?<![\w.])-0\.?0*\b", page), page
+    (seat,) = trainer.get(f"{one}/live").json()["seats"]
+    assert seat["for_"] == f"for 4{NO_BREAK}min"
