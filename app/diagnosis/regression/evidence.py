@@ -208,8 +208,8 @@ class Evidence(Weighing):
     ) -> Selection:
         """Every width at its best given the others; groups that are better off without a width fall out.
 
-        The worthiest is asked first: where some can stand for each other, the one that falls out is not the one whose
-        name comes first.
+        They are asked by turns, the least worthy of a turn first: which of several that can stand for each other falls
+        out does not hang on the order of the library.
 
         Args:
             bound: groups that stay in whatever they are worth, beside those that are kept.
@@ -219,7 +219,8 @@ class Evidence(Weighing):
             if not now:
                 break
             inside, before = self.inside(now), dict(now)
-            for g, _ in sorted(inside.losses().items(), key=lambda lost: -lost[1]):
+            losses = inside.losses()
+            for g in sorted(now, key=lambda g: (-self.groups[g].turn, losses[g])):
                 if g in stays and self.groups[g].widths.tolist() == [now[g]]:
                     continue
                 gain, gamma = inside.best_width(g, self._expected(g, now))
