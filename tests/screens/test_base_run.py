@@ -264,6 +264,9 @@ def test_an_arm_that_is_not_shown_does_not_move(in_the_cell):
         desk.does(job)
         assert desk.drive.how == "standing" and "another arm is shown" in desk.said[1], job
     assert np.array_equal(desk.q, stood)
+    step = desk.state.missing[0]
+    desk.does(lambda: tool.recording.record(step))
+    assert not desk.state.captures and "Nothing is recorded" in desk.said[1]
     desk.press("Close the cell")
     desk.moves(tool._next_touch.go)
     assert not np.array_equal(desk.q, stood)

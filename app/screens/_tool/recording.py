@@ -41,9 +41,11 @@ class Recording:
             back: the stroke was made the other way, away from the spike.
 
         Raises:
-            ActionRefusedError: the arm moves, or the stroke did not happen.
+            ActionRefusedError: the arm moves or is not the one that is shown, or the stroke did not happen.
         """
         context = self._context
+        if context.seen is not None:
+            raise ActionRefusedError(context.t("refused.other_arm"))
         if context.drive.how == "moving":
             raise ActionRefusedError(context.t("refused.moving"))
         if step.role in AXES:
