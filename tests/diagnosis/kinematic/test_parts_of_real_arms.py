@@ -51,18 +51,16 @@ def test_a_part_carried_to_the_rest_is_no_worse_than_an_ordinary_calibration(nam
     assert found.after_quality.heldout_rms < left * found.before_quality.heldout_rms
 
 
-@pytest.mark.parametrize("seed", [1, 2])
-def test_what_is_found_does_not_hang_on_the_names_of_the_effects_files(seed, monkeypatch):
+def test_what_is_found_does_not_hang_on_what_was_asked_before(monkeypatch):
+    """A law that had been taken out for a control came back at the end of the library; that changed what was found."""
     learnt, _ = parted("ur10_tracker/run_a", 120, 700)
     robot, every = robot_for(learnt), list(effects().items())
     found = diagnose(learnt, robot)
-    shuffled = random.Random(seed).sample(every, len(every))
+    shuffled = random.Random(2).sample(every, len(every))
     monkeypatch.setattr(candidates, "effects", lambda: dict(shuffled))
     again = diagnose(learnt, robot)
-    assert again.after.heldout_rms == pytest.approx(found.after.heldout_rms, rel=1e-3)
-    assert sorted(f.share for f in again.families) == pytest.approx(
-        sorted(f.share for f in found.families), abs=1e-3
-    )
+    assert again.after == found.after
+    assert [f.share for f in again.families] == [f.share for f in found.families]
 
 
 def test_what_an_instrument_gets_wrong_throughout_is_carried_and_a_step_is_not(arm, tmp_path):

@@ -98,7 +98,7 @@ def build(
             beside each other or a load: it was put on or taken off at one place.
     """
     chosen: list[tuple[Candidate, Law]] = []
-    for key, law in laws().items():
+    for key, law in sorted(laws().items()):
         if key in without:
             continue
         for place in law.places(state):
