@@ -70,13 +70,19 @@ def test_an_exercise_is_begun_without_scrolling(sit_down, brisk):
     assert person.page.evaluate(_HIDDEN) == []
 
 
-def test_what_two_robots_give_is_in_view_with_what_is_done_next(sit_down, brisk):
-    """Verdict and key stand above the procedure, which was looked at: the page stayed at the procedure's end."""
+def at_two_robots(sit_down):
+    """Somebody with a phone who has opened the cell of two robots."""
     person = sit_down("irb120", screen=PHONE, touch=True)
     person.page.locator("#switch button[data-part=work]").click()
     person.screen("base")
     person.click("Open the cell")
     person.reads("base-plan", "Robot 1")
+    return person
+
+
+def test_what_two_robots_give_is_in_view_with_what_is_done_next(sit_down, brisk):
+    """Verdict and key stand above the procedure, which was looked at: the page stayed at the procedure's end."""
+    person = at_two_robots(sit_down)
     view = person.view("run")
     person.does(lambda: setattr(view._every, "value", APART_DEG))
     person.click("Run the whole procedure")
@@ -94,11 +100,7 @@ def test_what_two_robots_give_is_in_view_with_what_is_done_next(sit_down, brisk)
 
 def test_neither_the_keys_of_the_views_nor_the_two_robots_hide_each_other(sit_down, brisk):
     """The keys stood over the first robot: in a scene so low there is no corner that is free in every view."""
-    person = sit_down("irb120", screen=PHONE, touch=True)
-    person.page.locator("#switch button[data-part=work]").click()
-    person.screen("base")
-    person.click("Open the cell")
-    person.reads("base-plan", "Robot 1")
+    person = at_two_robots(sit_down)
     person.scene_is_there()
     scene, keys = (person.page.locator(place).bounding_box() for place in ("#scene", "#views"))
     assert keys["x"] + keys["width"] <= scene["x"]
