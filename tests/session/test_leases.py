@@ -196,20 +196,21 @@ def test_of_two_that_wait_for_each_others_rows_one_is_told_so_and_both_are_kept(
         names = [stores[0].create(robot="ur5", leases=gone).name for _ in range(2)]
         both, conflicts = threading.Barrier(2), []
 
-        def wanted(store, order):
-            def job(connection):
-                for number, name in enumerate(order):
-                    if number and not conflicts:
-                        both.wait(20.0)
-                    change = "UPDATE leases SET beat = beat + 1 WHERE session = :name"
-                    connection.execute(text(change), {"name": name})
+        def update(connection, name):
+            change = "UPDATE leases SET beat = beat + 1 WHERE session = :name"
+            connection.execute(text(change), {"name": name})
 
+        def wanted(store, order):
+            first, second = order
             try:
                 with store.database.begin() as connection:
-                    job(connection)
+                    update(connection, first)
+                    both.wait(20.0)
+                    update(connection, second)
             except ConflictError:
                 conflicts.append(store)
-                store.database.write(job)
+                for name in order:  # as jobs of a shared commit: each alone, who asks for both again may meet the same
+                    store.database.write(lambda connection, name=name: update(connection, name))
 
         threads = [
             threading.Thread(target=wanted, args=(store, order))
