@@ -5,6 +5,7 @@ from __future__ import annotations
 import tomllib
 import xml.etree.ElementTree as ET
 from dataclasses import replace
+from functools import lru_cache
 from pathlib import Path
 
 import pinocchio as pin  # pyright: ignore[reportMissingImports]  (found through a .pth hook)
@@ -23,7 +24,13 @@ from app.kinematics.robot import Follower, Joint, RobotModel
 
 def robot_names() -> list[str]:
     """Names of the shipped robots: the folders under robots/."""
-    return sorted(catalog.folders(resources.ROBOTS, "robot.toml"))
+    return list(_names(resources.ROBOTS, resources.ROBOTS.stat().st_mtime_ns))
+
+
+@lru_cache(maxsize=4)
+def _names(root: Path, _changed: int) -> tuple[str, ...]:
+    """Read again where the folder has changed: whoever opens a session asks seven times."""
+    return tuple(sorted(catalog.folders(root, "robot.toml")))
 
 
 def load_robot(name_or_path: str | Path, *, relative_to: Path | None = None) -> RobotModel:

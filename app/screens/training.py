@@ -14,6 +14,8 @@ from app.session import SessionState
 from app.session.actions import Finish
 from app.training.cell import begin
 from app.training.exercise import Exercise, begun_exercise, exercises
+from app.training.records import best_of
+from app.training.score import ScoreCard
 
 if TYPE_CHECKING:
     from app.screens.context import Context
@@ -81,7 +83,7 @@ class _View:
     def _fill(self) -> None:
         context = self.context
         done = context.shelf.records.history(self._trainee)
-        best = context.shelf.records.best(self._trainee)
+        best = best_of(done)
         # The same exercise may be a lesson of two classes: the first one's helps count.
         self._lessons: dict[str, Lesson] = {}
         for one in context.shelf.lessons():
@@ -98,13 +100,17 @@ class _View:
         before = before or (ahead.key if ahead else (*given, *free)[0].key)
         self._list.options = tuple(self._titles)
         self._list.value = next(title for title, e in self._titles.items() if e.key == before)
-        self._choose()
+        self._offer([card for card in done if card.exercise == before])
 
     def _choose(self) -> None:
+        self._offer(self.context.shelf.records.history(self._trainee, self.chosen.key))
+
+    def _offer(self, done: list[ScoreCard]) -> None:
+        """The chosen exercise, its levels, and what was reached in it, `done`."""
         context, chosen = self.context, self.chosen
         context.exercise = chosen.key
         self._card.content = cards.before(context, chosen, self._lessons.get(chosen.key))
-        tries = [c for c in context.shelf.records.history(self._trainee, chosen.key) if not c.given_up]
+        tries = [card for card in done if not card.given_up]
         self._level.offer(chosen, tries)
         self._level.visible = context.session.state.running is None
         self._history.visible = bool(tries) and context.session.state.running is None

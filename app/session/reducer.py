@@ -57,12 +57,12 @@ def reduce(state: SessionState, action: AnyAction) -> SessionState:
         return _undo(state)
     if isinstance(action, Redo):
         return _redo(state)
-    after = _reducers()[type(action)](state, action).but(count=state.count + 1)
+    after, count = _reducers()[type(action)](state, action), state.count + 1
     if isinstance(action, _ASIDE):
-        return after
+        return after.but(count=count)
     if isinstance(action, ChooseRobot | Begin):  # another arm's points mean nothing here
-        return after.but(before=None, after=None)
-    return after.but(before=state, after=None)
+        return after.but(count=count, before=None, after=None)
+    return after.but(count=count, before=state, after=None)
 
 
 def _undo(state: SessionState) -> SessionState:

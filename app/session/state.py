@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import lru_cache
 from types import MappingProxyType
 from typing import Any
@@ -159,8 +159,19 @@ class SessionState:
         return next((s for s in self.steps if s.key == key), None)
 
     def but(self, **changes: Any) -> SessionState:
-        """The same state with these fields changed."""
-        return replace(self, **changes)
+        """The same state with these fields changed.
+
+        Raises:
+            TypeError: a state has no such field.
+        """
+        # A session is opened by doing all of its actions again: `dataclasses.replace` would be half of that.
+        if not changes.keys() <= self.__dict__.keys():
+            raise TypeError(f"a state has no {', '.join(changes.keys() - self.__dict__.keys())}")
+        other = object.__new__(SessionState)
+        other.__dict__.update(self.__dict__, **changes)
+        if "captures" in changes or "comments" in changes:
+            other.__post_init__()
+        return other
 
 
 def accepted(state: SessionState) -> bool:

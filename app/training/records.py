@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Iterable
 
 import msgspec
 from sqlalchemy import Column, Float, Integer, String, Table, Text, insert, select
@@ -96,13 +96,14 @@ class Records:
         with self._database.begin() as connection:
             return connection.execute(newest).scalar() or ""
 
-    def best(self, trainee: str) -> dict[str, float]:
-        """The best total of each exercise a trainee has done."""
-        found: dict[str, float] = {}
-        for card in self.history(trainee):
-            if not card.given_up:
-                found[card.exercise] = max(found.get(card.exercise, 0.0), card.total)
-        return found
+
+def best_of(history: Iterable[ScoreCard]) -> dict[str, float]:
+    """The best total of each exercise a trainee has done."""
+    found: dict[str, float] = {}
+    for card in history:
+        if not card.given_up:
+            found[card.exercise] = max(found.get(card.exercise, 0.0), card.total)
+    return found
 
 
 def _card(number: int, text: str) -> ScoreCard:

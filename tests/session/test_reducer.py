@@ -166,3 +166,12 @@ def test_a_tool_active_while_points_are_recorded_is_named_and_the_light_stays_wh
     assert "torch 7" in told.message and told.note and not told.severe
     assert state.result.light.colour == first.light.colour and state.result.light.reason == first.light.reason
     assert np.array_equal(state.result.result.tool_point, first.result.tool_point)
+
+
+def test_a_state_takes_no_field_that_it_has_not_and_its_points_cannot_be_written():
+    state = first_state()
+    with pytest.raises(TypeError, match="points"):
+        state.but(points={})
+    for name in ("captures", "comments"):
+        with pytest.raises(TypeError):
+            getattr(state.but(**{name: {}}), name)["touch1"] = ""

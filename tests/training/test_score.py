@@ -13,7 +13,7 @@ from app.session.state import as_tuple
 from app.training.attempt import last_attempt
 from app.training.cell import at_touch, begin, true_tool, world_of
 from app.training.exercise import exercise, exercises, read_exercise
-from app.training.records import Records
+from app.training.records import Records, best_of
 from app.training.score import score
 from app.training.travel import travel
 from app.training.truth import draw
@@ -176,7 +176,7 @@ def test_history_is_kept_by_trainee_and_exercise_in_its_order(tmp_path):
     records.add("Bob", "s", GOOD.scores(BENT, 1))
     again = Records(Store(tmp_path).database)
     assert again.history("Ada", "first_tool") == cards and again.history("Ada", "bent_tip") == []
-    assert again.best("Ada") == {"first_tool": max(c.total for c in cards)}
+    assert best_of(again.history("Ada")) == {"first_tool": max(c.total for c in cards)}
     assert len(again.history("Bob")) == 1
     assert (again.trainee_of("s"), again.trainee_of("t")) == ("Bob", "")
 
