@@ -59,7 +59,8 @@ def test_a_program_that_is_told_to_end_loses_nothing_it_had_confirmed(tmp_path):
     name = process.stdout.readline().strip()
     confirmed = [int(process.stdout.readline()) for _ in range(30)][-1]
     process.send_signal(signal.SIGTERM)
-    rest, _ = process.communicate(timeout=60)
+    rest = process.stdout.read()  # `communicate` would leave out lines that were taken from the pipe already
+    process.communicate(timeout=60)
     confirmed = max([confirmed, *(int(line) for line in rest.split() if line.isdigit())])
     assert process.returncode == -signal.SIGTERM
     entries = Store(tmp_path).recorded(name).entries

@@ -15,7 +15,13 @@ from app.diagnosis.kinematic.problem import ALL, NAMED, Problem
 from app.diagnosis.kinematic.spread import as_errors_are
 from app.diagnosis.models.kinematic.candidates import library_of
 from app.diagnosis.models.kinematic.library import terms_from
-from app.diagnosis.models.kinematic.rows import even_weights, row_weights, t_likelihood, weighted_anew
+from app.diagnosis.models.kinematic.rows import (
+    even_weights,
+    robust_squares,
+    row_weights,
+    t_likelihood,
+    weighted_anew,
+)
 from app.diagnosis.models.kinematic.state import State, settled, state_of
 from app.diagnosis.models.kinematic.terms import Term
 from app.diagnosis.observations.pose_data import StaticRecording
@@ -37,8 +43,6 @@ _ROUNDS = 3
 _REFITS, _STILL = 4, 1e-5
 #: A step whose robust sum of squares grows beyond this factor has left the range of the linear columns.
 _LEFT = 1.3
-#: Sum of squares a component beyond which a row counts no more when two states are compared (five sigma).
-_FAR = 25.0
 
 
 def describe(recording: StaticRecording, held: tuple[Term, ...], tick: Tick) -> Description:
@@ -192,17 +196,20 @@ class _Work:
         count = sum(len(linear.groups[g].columns) for g in self.problem.selection())
         return linear.design.free_count + min(count, self.state.recording.size)
 
-    def move(self) -> float:
+    def move(self, most: float = _LEFT) -> float:
         """The exact model at the selection's values; halved where it leaves the range of the linear columns.
+
+        Args:
+            most: times the robust sum of squares may grow; where every step grows more, all stays as it was.
 
         Returns:
             change of the sum of squares, as a share.
         """
         library = self.problem.library
         wanted = self.problem.values(self.problem.selection())
-        before = _robust_squares(self.state)
+        before = robust_squares(self.state)
         old = {library.labels[t.label]: t for t in self.state.terms}
-        share, trial = 1.0, self.state
+        share = 1.0
         for _ in range(4):
             values = {}
             for number in {*wanted, *old}:
@@ -211,11 +218,11 @@ class _Work:
                 goal = wanted.get(number, np.zeros(len(widths)))
                 values[number] = start + share * (goal - start)
             trial = self._at({k: v for k, v in values.items() if np.any(v)})
-            if _robust_squares(trial) <= _LEFT * before:
+            if robust_squares(trial) <= most * before:
+                self.state = trial
                 break
             share *= 0.5
-        self.state = trial
-        return abs(before - _robust_squares(trial)) / max(before, 1e-300)
+        return abs(before - robust_squares(self.state)) / max(before, 1e-300)
 
     def _at(self, values: dict[int, np.ndarray]) -> State:
         terms, now = terms_from(self.problem.library, values), self.state
@@ -259,9 +266,8 @@ class _Work:
     def calibrated(self, few: Description) -> Description | None:
         """All calibration beside the few laws, what has no name keeping only what calibration cannot take.
 
-        A few laws are enough to name; but what has no name says nothing of other poses, where an ordinary
-        calibration does. Taken where the data are likelier with all of it, and where something has no name: then only
-        what of it earns its place.
+        A few laws are enough to name; but what has no name says nothing of other poses, where an ordinary calibration
+        does. Taken where the data are likelier with all of it; where something has no name, what of it earns its place.
         """
         problem, laws = self.problem, dict(self.problem.labels)
         nameless = any(
@@ -284,17 +290,11 @@ class _Work:
         if not set(selection) & set(ordinary):
             return None
         problem.take(selection)
-        for _ in range(_REFITS):
-            still = self.move() < _STILL
+        for number in range(_REFITS):  # what left the selection may leave more; after that no step may
+            still = self.move(_LEFT if number == 0 else 1.0) < _STILL
             problem.linearise(self.state, NAMED, True, False)
             problem.evidence.kept = set(problem.selection())
             problem.take(problem.evidence.tuned(problem.selection(), 1))
             if still:
                 break
         return self._described(None)
-
-
-def _robust_squares(state: State) -> float:
-    """Weighted sum of squares, a row counting for no more than `_FAR` a component."""
-    rows = (state.residual * state.weights) ** 2
-    return float(np.minimum(rows.sum(axis=1), _FAR * rows.shape[1]).sum())

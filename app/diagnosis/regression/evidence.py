@@ -208,6 +208,9 @@ class Evidence(Weighing):
     ) -> Selection:
         """Every width at its best given the others; groups that are better off without a width fall out.
 
+        They are asked by turns, the least worthy of a turn first: which of several that can stand for each other falls
+        out does not hang on the order of the library.
+
         Args:
             bound: groups that stay in whatever they are worth, beside those that are kept.
         """
@@ -216,7 +219,8 @@ class Evidence(Weighing):
             if not now:
                 break
             inside, before = self.inside(now), dict(now)
-            for g in list(now):
+            losses = inside.losses()
+            for g in sorted(now, key=lambda g: (-self.groups[g].turn, losses[g])):
                 if g in stays and self.groups[g].widths.tolist() == [now[g]]:
                     continue
                 gain, gamma = inside.best_width(g, self._expected(g, now))

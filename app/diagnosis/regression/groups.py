@@ -25,6 +25,7 @@ class Group:
         label: whatever the caller wants to know it by.
         exclusive: groups of one and the same text are never in together.
         positive: True for a single column whose weight cannot be negative.
+        turn: groups of a higher number have their widths learnt first, and fall out first where another does as well.
     """
 
     columns: np.ndarray
@@ -34,6 +35,7 @@ class Group:
     label: object = None
     exclusive: str = ""
     positive: bool = False
+    turn: int = 0
 
 
 @dataclass(frozen=True, eq=False)

@@ -65,14 +65,11 @@ class Library:
 
 
 def library_of(situation: Situation) -> Library:
-    """Every effect at every place it can sit on this arm, by key; worked out once for a recording."""
-    known = effects()
-    key = ("library", *sorted(known))
+    """Every effect at every place it can sit on this arm; worked out once for a recording."""
+    key = ("library", tuple(effects()))
     if key not in situation.kept:
         every = [
-            candidate_of(known[k], place, situation)
-            for k in sorted(known)
-            for place in known[k].places(situation)
+            candidate_of(e, place, situation) for e in effects().values() for place in e.places(situation)
         ]
         situation.kept[key] = every
     every: list[Candidate] = situation.kept[key]

@@ -104,9 +104,9 @@ class Linear:
         penalty = candidate.effect.penalty
         if candidate.place.scan:  # the choice of its row costs more than any law
             penalty = STEP + np.log(len(self.state.residual))
-        return Group(
+        return Group(  # its turn is behind all families: what was in makes room for it first
             self.columns[number], penalty + candidate.place.cost, candidate.effect.cap, label=number,
-            positive=candidate.positive,
+            positive=candidate.positive, turn=Level.CALIBRATION - 1,
         )  # fmt: skip
 
     @property
@@ -229,7 +229,7 @@ def _put_into_groups(here: Linear, numbers: list[int]) -> None:
         columns = np.unique(np.concatenate([here.columns[i] for i in inside]))
         # one decision a family, however many widths it has
         penalty = FAMILY / sum(other.family == effect.family for other in effects.values())
-        here.groups.append(Group(columns, penalty, effect.cap, label=group))
+        here.groups.append(Group(columns, penalty, effect.cap, label=group, turn=int(effect.level)))
         here.members[len(here.groups) - 1] = tuple(inside)
 
 

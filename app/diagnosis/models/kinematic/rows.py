@@ -19,6 +19,8 @@ if TYPE_CHECKING:
 _MEDIAN = {1: 0.455, 3: 0.789, 6: 0.891, 9: 0.927}
 #: m, rad: no instrument is better; keeps weights finite on simulated data without noise.
 _FINEST = 1e-9
+#: Sum of squares a component beyond which a row counts no more when two states are compared (five sigma).
+_FAR = 25.0
 
 
 def first_weights(recording: StaticRecording) -> np.ndarray:
@@ -94,6 +96,12 @@ def t_likelihood(recording: StaticRecording, residual: np.ndarray, used: float, 
             np.sum(0.5 * (ROBUST_DOF + count) * np.log1p(squares / variance / ROBUST_DOF) + count * scale)
         )
     return out
+
+
+def robust_squares(state: State) -> float:
+    """Weighted sum of squares, a row counting for no more than five sigma a component."""
+    rows = (state.residual * state.weights) ** 2
+    return float(np.minimum(rows.sum(axis=1), _FAR * rows.shape[1]).sum())
 
 
 def _independent(recording: StaticRecording) -> float:
