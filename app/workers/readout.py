@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Literal
-
 import msgspec
 import numpy as np
 
@@ -11,6 +9,7 @@ from app.geometry import CONVENTIONS, Pose
 from app.kinematics import RobotModel
 from app.screens._tool.words import Words
 from app.screens.context import Context
+from app.session.motion.drive import How
 from app.session.motion.user_frame import user_frame
 from app.units import deg, mm
 from app.workers.axes import pairs
@@ -39,7 +38,7 @@ class Read(msgspec.Struct, frozen=True, tag_field="t", tag="read"):
     """Everything on the page's frame.
 
     Args:
-        how: `standing`, `moving`, `waiting` for the switch, `stopped`.
+        how: `standing`, `moving`, `waiting` for the switch, `measuring` without it, `stopped`.
         enabled, tripped: the enabling switch is held; it fell silent and has to be let go.
         errand: what a motion that waits or runs is for.
         frame, increment, override: how it is jogged.
@@ -59,7 +58,7 @@ class Read(msgspec.Struct, frozen=True, tag_field="t", tag="read"):
         watched: a trainer looks on.
     """
 
-    how: Literal["standing", "moving", "waiting", "stopped"]
+    how: How
     state: str
     enabled: bool
     tripped: bool

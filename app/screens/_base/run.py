@@ -184,10 +184,14 @@ class Run:
         step = self._step()
         arm = step.robot - 1
         if step.kind == NESTS:
-            for _ in range(len(self.now.nests) - len(self.wizard.of(step.key))):
-                self.measure()
-                told()
-                yield from pause(self._drive, 2 * _REST)
+            self._drive.measuring = True
+            try:
+                for _ in range(len(self.now.nests) - len(self.wizard.of(step.key))):
+                    self.measure()
+                    told()
+                    yield from pause(self._drive, 2 * _REST)
+            finally:
+                self._drive.measuring = False
         else:
             angles = [float(self.now.arms[arm].rest[0])]
             if step.kind == TURN:

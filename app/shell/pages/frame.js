@@ -170,7 +170,7 @@ export function show(read) {
   stop.classList.toggle("latched", latched);
   put(stop, t(latched ? "page.release" : "page.stop"));
   stop.setAttribute("aria-label", t(latched ? "page.release_long" : "page.stop_long"));
-  $("errand").hidden = read.how !== "waiting" && !(read.how === "moving" && read.errand);
+  $("errand").hidden = read.how !== "waiting" && !(["moving", "measuring"].includes(read.how) && read.errand);
   put($("errand-said"), (read.how === "waiting" ? t("page.wait") + ": " : "") + read.errand);
   message(read);
   pressed();

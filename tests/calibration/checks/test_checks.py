@@ -128,7 +128,12 @@ def test_one_touch_that_missed_is_named_and_not_dropped():
 
 
 def test_nothing_bumped_is_rarely_reported_as_bumped():
-    told = [w for s in range(300) for w in calibrate(captures(*touches(6, 0.6, NOISE, s))).warnings if w.code == "bumped"]
+    told = [
+        w
+        for s in range(300)
+        for w in calibrate(captures(*touches(6, 0.6, NOISE, s))).warnings
+        if w.code == "bumped"
+    ]
     assert len(told) <= 9  # 1 in 100 is meant; 10 of 300 has a chance of 1 in 1000
     assert sum(w.severe for w in told) <= 2  # 1 in 1000 is meant; 3 of 300 has a chance of 4 in 1000
 
