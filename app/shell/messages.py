@@ -50,7 +50,7 @@ class Joint(_In, frozen=True, tag="joint"):
 
 
 class Choose(_In, frozen=True, tag="choose"):
-    """Frame, increment, override, language, dark, view, handle."""
+    """Frame, increment, override, language, dark, view, handle, height of the scene's window [px]."""
 
     what: str
     value: bool | float | str

@@ -26,6 +26,9 @@ function settle() {
     else $("bar").insertBefore($(id), $("beside"));
 }
 
+// Words in the scene are laid out for its window, which only the page knows in its own measure.
+const sized = () => { if ($("scene").clientHeight) say({ t: "choose", what: "window", value: $("scene").clientHeight }); };
+
 function segment(place, keys, label, pick) {
   place.replaceChildren(...keys.map((key) => {
     const button = document.createElement("button");
@@ -74,6 +77,7 @@ export function greet(hello) {
   mark($("handles"), "both");
   shape = "";
   said = null;
+  sized();
   if (last) show(last);
 }
 
@@ -214,6 +218,7 @@ function pressed() {
 
 export function begin() {
   phone.onchange = settle;
+  new ResizeObserver(sized).observe($("scene"));
   settle();
   onShown(pressed);
   holdable($("enable"), (who) => enable(who, true), (who) => enable(who, false));
