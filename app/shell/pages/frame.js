@@ -158,6 +158,9 @@ export function show(read) {
   put($("touch"), read.touch);
   $("touch").classList.toggle("on", read.touching);
   put($("points"), read.points.replace(/^\D+/, ""));
+  put($("task"), read.task);
+  $("task").title = read.task;
+  put($("clock"), read.clock);
   put($("override-said"), read.override + " %");
   if (document.activeElement !== $("override")) $("override").value = read.override;
   mark($("frames"), read.frame);
