@@ -9,6 +9,8 @@ import numpy as np
 from app.scene.seen import Seen
 from app.scene.server import SceneServer
 
+_USUAL = 700.0  # height of a window whose page has not said it yet [px]
+
 
 class Eyes:
     """Where the pages of one session look from.
@@ -36,7 +38,7 @@ class Eyes:
     @property
     def seen(self) -> Seen:
         """The window, and what was looked at last."""
-        return Seen(*self._view, self.aspect * self._server.height, self._server.height)
+        return Seen(*self._view, *(self._server.window or (_USUAL * self.aspect, _USUAL)))
 
     def look(self, eye: np.ndarray, centre: np.ndarray, field: float | None = None) -> None:
         """Every page looks from here, and so does one that comes."""

@@ -6,6 +6,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
+_SIZES = 40.0, 10_000.0  # of a window that are believed [px]
+
+
+def window_size(said: object) -> tuple[float, float] | None:
+    """Width and height [px] as a page says them, "820 345"; None where that is no window's."""
+    words = said.split() if isinstance(said, str) else []
+    if len(words) != 2 or not all(word.isascii() and word.isdigit() and len(word) <= 5 for word in words):
+        return None
+    width, height = map(float, words)
+    return (width, height) if _SIZES[0] <= min(width, height) <= max(width, height) <= _SIZES[1] else None
+
 
 @dataclass(frozen=True, eq=False)
 class Seen:

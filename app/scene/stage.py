@@ -220,10 +220,10 @@ class Stage:
         self._words.show(said, *column(said, self._words_at, seen, self._reach))
         self._numbers.show(*of_points(self._numbered, seen, self._reach, boxes(self._words, seen)))
 
-    def window(self, height: float) -> None:
-        """The page's window is so high [px]."""
-        if height != self._server.height:
-            self._server.height = height
+    def window(self, size: tuple[float, float]) -> None:
+        """The page's window is so wide and so high [px]."""
+        if size != self._server.window:
+            self._server.window = size
             self._letter()
 
     def follow(self) -> None:

@@ -16,6 +16,7 @@ from app.kinematics import RobotModel
 from app.scene.camera import CLOSE_UPS, VIEWS
 from app.scene.client_page import client_page
 from app.scene.pages import Frames
+from app.scene.seen import window_size
 from app.scene.server import PROTOCOL, SceneServer
 from app.screens import screens
 from app.screens.context import Context
@@ -31,7 +32,6 @@ from app.workers.readout import Read, read
 
 _LOG = logging.getLogger(__name__)
 _HANDLES = {"both": (True, True), "shift": (True, False), "turn": (False, True)}
-_WINDOW = 40, 10_000  # heights of the scene's window that are believed [px]
 _MOST_DOWNLOADS = 8  # files that wait to be fetched
 #: Families of texts the page's own script shows.
 _PAGE_TEXTS = ("page.", "jog.", "status.", "move.", "people.account")
@@ -183,8 +183,8 @@ class Live:
             context.post(lambda: self._darken(value))
         elif what == "view" and value in self.choices()["views"]:
             context.post(lambda: context.stage.view(str(value)))
-        elif what == "window" and isinstance(value, int | float) and _WINDOW[0] <= value <= _WINDOW[1]:
-            context.post(lambda: context.stage.window(float(value)))
+        elif what == "window" and (size := window_size(value)) is not None:
+            context.post(lambda: context.stage.window(size))
         elif what == "handle" and value in _HANDLES:
             shift, turn = _HANDLES[value]
             context.post(lambda: context.stage.want_handle(shift=shift, turn=turn))

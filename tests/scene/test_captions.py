@@ -131,7 +131,9 @@ def test_words_are_laid_out_anew_for_another_view_and_another_window(sit_at):
     desk.live.choose("view", "whole")
     desk.idle()
     wide = stage._words.shown[2].max()
-    assert desk.live.choose("window", 160) and not desk.live.choose("window", 1)
+    assert desk.live.choose("window", "294 160")
+    for no_window in (160, "1 1", "294", "294 160 2", "-294 160", "1e3 160", "99999 160", "²94 160"):
+        assert not desk.live.choose("window", no_window), no_window
     desk.idle()
     low = stage._words.shown[2].max()
     assert low > 2.0 * wide  # so many metres are as many pixels in so low a window

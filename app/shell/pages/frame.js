@@ -27,7 +27,10 @@ function settle() {
 }
 
 // Words in the scene are laid out for its window, which only the page knows in its own measure.
-const sized = () => { if ($("scene").clientHeight) say({ t: "choose", what: "window", value: $("scene").clientHeight }); };
+const sized = () => {
+  const { clientWidth, clientHeight } = $("scene");
+  if (clientHeight) say({ t: "choose", what: "window", value: `${clientWidth} ${clientHeight}` });
+};
 
 function segment(place, keys, label, pick) {
   place.replaceChildren(...keys.map((key) => {
