@@ -19,6 +19,8 @@ _FACTS = """([state, enabled, stop]) => {
         return one.scrollWidth > one.clientWidth + 1 || one.scrollHeight > one.clientHeight + 2
             || box.right > line.right + 1 || box.bottom > bar.bottom || box.top < bar.top;
     });
+    wrong.push(...[...facts.querySelectorAll("dt")].filter((one) => one.checkVisibility()
+        && !one.nextElementSibling.textContent));
     const keys = [...document.querySelectorAll("#bar > :not(#facts)")].filter((one) => one.checkVisibility());
     wrong.push(...keys.filter((one) => {
         const box = one.getBoundingClientRect();
@@ -56,6 +58,19 @@ def test_mode_tool_base_and_all_the_rest_are_there_and_whole(sit_down, brisk, ro
                 shown, wrong = person.page.evaluate(_FACTS, words)
                 assert set(shown) >= ALWAYS | {"clock" if lesson else "points"}, (name, language, shown)
                 assert not wrong, (name, language, how, wrong)
+
+
+def test_what_has_nothing_to_say_is_not_there(sit_down, brisk):
+    """Beside two robots there is no spike: its name stood there with nothing behind it."""
+    person = sit_down("irb120")
+    person.screen("base")
+    person.click("Open the cell")
+    person.page.locator("#touch:empty").wait_for(state="attached")
+    for name, (width, height) in SIZES.items():
+        person.page.set_viewport_size({"width": width, "height": height})
+        person.page.wait_for_timeout(120)
+        shown, wrong = person.page.evaluate(_FACTS, ["READY", "LOCKED", "STOP"])
+        assert {"mode", "robot", "tool", "base", "speed"} == set(shown) and not wrong, (name, shown, wrong)
 
 
 def test_the_lesson_that_runs_is_named_with_its_time_wherever_the_work_is_scrolled(sit_down, brisk):
