@@ -1,7 +1,9 @@
 """What stands in writing beside a result and at the recorded points, so that no words cover others.
 
 Words of a result stand in one column beside the tip, one under the other by the height of what they speak of, each
-with a line to it. Their size is in metres like the column's, so that they stay apart from near and from far.
+with a line to it; numbers stand over their flanges. All are laid out on the page, for the window and the view they are
+looked at in, in letters that can be read there. Their size is then one in metres, so that they stay apart from near
+and from far.
 """
 
 from __future__ import annotations
@@ -15,26 +17,32 @@ import viser
 
 from app.calibration.captures import Capture
 from app.calibration.result import ToolCalibration
-from app.scene.camera import View
 from app.scene.region import cone_ends, cone_factor, region_factor
 from app.scene.residuals import arrow_ends
+from app.scene.seen import Seen
 from app.units import deg, mm
 
-HEIGHT = 0.026  # of a line of words, as a share of the reach
+HEIGHT = 0.026  # of a line of words, as a share of the reach, where that is neither too small nor too large:
+LEAST_PX, MOST_PX = 13.0, 17.0
+ROOM, WIDE = 0.86, 0.92  # of the window's height and width that words keep to
 _LETTER = 0.6  # heights a letter is wide
 _LEADING = 1.35  # heights from one line to the next
-_APART = 1.7  # the same of numbers of points, which have a rim
-_ASIDE = 0.10  # of the reach: from the tip to the column
+_RIM = 1.32  # the least of that: words stand on a ground of their own
+_APART = 1.4  # the same of numbers of points, which have a rim
+_ASIDE = 0.10  # of the reach: from the tip to the column,
+_ASIDE_PX, _ASIDE_MOST = 24.0, 0.14  # but at least so far, and no more than this share of the window
+_AWAY = 2.5  # lines that a number may be moved from its flange
 _GREY = (120, 130, 140)
 _NUMBERS = itertools.count(1)
 
 
 @dataclass(frozen=True, eq=False)
 class Caption:
-    """Words, and the place (3,) in base [m] they speak of."""
+    """Words, and the place (3,) in base [m] they speak of; `weight` tells which are left out first."""
 
     text: str
     about: np.ndarray
+    weight: float = np.inf
 
 
 def spread(heights: Sequence[float] | np.ndarray, gap: float) -> np.ndarray:
@@ -64,7 +72,7 @@ def of_result(result: ToolCalibration, *, misses: bool) -> list[Caption]:
     if misses:
         ends = arrow_ends(result)
         for number, (end, miss) in enumerate(zip(ends, result.per_point, strict=True), 1):
-            found.append(Caption(f"{number}: {mm(float(miss)):.2f} mm", end))
+            found.append(Caption(f"{number}: {mm(float(miss)):.2f} mm", end, float(miss)))
     if result.sigma > 0:
         found.append(Caption(f"95% ×{region_factor(result)}", result.p_base))
     return found
@@ -81,18 +89,56 @@ def of_axes(result: ToolCalibration, T_base_flange: np.ndarray) -> list[Caption]
     ]
 
 
-def column(captions: Sequence[Caption], beside: np.ndarray, ahead: np.ndarray, reach: float) -> np.ndarray:
-    """(n, 3) where the words begin: a column beyond the tip.
+def line_px(seen: Seen, depth: float, reach: float) -> float:
+    """How high a line of words is that is so far away [px]."""
+    return float(np.clip(seen.pixels(HEIGHT * reach, depth), LEAST_PX, MOST_PX))
+
+
+def fitting(captions: Sequence[Caption], seen: Seen) -> list[Caption]:
+    """Those that can be read under each other in so high a window: the smallest misses are left out."""
+    most = int(ROOM * seen.height / (_RIM * LEAST_PX))
+    kept = sorted(range(len(captions)), key=lambda k: -captions[k].weight)[:most]
+    return [captions[k] for k in sorted(kept)]
+
+
+def room_beside(captions: Sequence[Caption], tip: np.ndarray, seen: Seen, reach: float) -> np.ndarray:
+    """(n, 3) places the column needs in the window beside the tip (3,) [m]; none without words."""
+    if not captions:
+        return np.zeros((0, 3))
+    (x, y, depth) = seen.of(tip)[0]
+    wide = max(len(c.text) for c in captions) * _LETTER * line_px(seen, depth, reach)
+    return seen.at(np.array([[x + _aside_px(seen, depth, reach) + wide, y, depth]]))
+
+
+def _aside_px(seen: Seen, depth: float, reach: float) -> float:
+    return float(np.clip(seen.pixels(_ASIDE * reach, depth), _ASIDE_PX, _ASIDE_MOST * seen.width))
+
+
+def column(
+    captions: Sequence[Caption], tip: np.ndarray, seen: Seen, reach: float
+) -> tuple[np.ndarray, np.ndarray]:
+    """(n, 3) where the words begin, in a column right of the tip (3,) and within the window, and (n,) their height [m].
 
     Args:
-        beside: (3,) the tip [m].
-        ahead: (3,) unit, level: from the arm to the tip.
         reach: of the arm [m].
     """
-    heights = spread([float(c.about[2]) for c in captions], _LEADING * HEIGHT * reach)
-    place = np.tile(beside + _ASIDE * reach * ahead, (len(captions), 1))
-    place[:, 2] = heights
-    return place
+    if not captions:
+        return np.zeros((0, 3)), np.zeros(0)
+    x, _, depth = seen.of(tip)[0]
+    size, most = line_px(seen, depth, reach), ROOM * seen.height
+    gap = min(_LEADING * size, most / len(captions))
+    size = min(size, gap / _RIM)
+    half, edge = 0.5 * most - 0.5 * size, 0.5 * WIDE * seen.width
+    heights = spread(np.clip(seen.of(np.array([c.about for c in captions]))[:, 1], -half, half), gap)
+    heights += max(-half - heights.min(), 0.0) - max(heights.max() - half, 0.0)
+    wide = max(len(c.text) for c in captions) * _LETTER * size
+    begins = float(np.clip(x + _aside_px(seen, depth, reach), -edge, edge - wide))
+    places = seen.at(np.array([[begins, y, depth] for y in heights]))
+    return places, np.full(len(captions), seen.metres(size, depth))
+
+
+#: Captions, places (n, 3), heights (n,) [m].
+_NOTHING: tuple[Sequence[Caption], np.ndarray, np.ndarray] = (), np.zeros((0, 3)), np.zeros(0)
 
 
 class Captions:
@@ -100,32 +146,34 @@ class Captions:
 
     Args:
         scene: the session's.
-        reach: of the arm [m].
+
+    Attributes:
+        shown: captions, places (n, 3), heights (n,) [m].
     """
 
-    def __init__(self, scene: viser.SceneApi, reach: float):
-        self._scene, self._reach = scene, reach
+    def __init__(self, scene: viser.SceneApi):
+        self._scene = scene
         self._handles: list[viser.SceneNodeHandle] = []
-        self._shown: tuple[Sequence[Caption], np.ndarray] = (), np.zeros((0, 3))
+        self.shown = _NOTHING
 
     def corners(self, right: np.ndarray) -> np.ndarray:
         """(n, 3) where the lines begin and end on a page whose right is `right` (3,), in base [m]."""
-        captions, places = self._shown
-        lengths = np.array([len(c.text) for c in captions]) * _LETTER * HEIGHT * self._reach
+        captions, places, heights = self.shown
+        lengths = np.array([len(c.text) for c in captions]) * _LETTER * heights
         return np.vstack([places, places + lengths[:, None] * right])
 
     def clear(self) -> None:
         """Takes all away."""
         for handle in self._handles:
             handle.remove()
-        self._handles, self._shown = [], ((), np.zeros((0, 3)))
+        self._handles, self.shown = [], _NOTHING
 
-    def show(self, captions: Sequence[Caption], places: np.ndarray) -> None:
-        """These at these places (n, 3), in base [m]."""
+    def show(self, captions: Sequence[Caption], places: np.ndarray, heights: np.ndarray) -> None:
+        """These at these places (n, 3) in base, so high (n,) [m]."""
         self.clear()
         if not captions:
             return
-        self._shown = captions, places
+        self.shown = captions, places, heights
         root = f"/captions{next(_NUMBERS)}"
         lines = np.array([[c.about, place] for c, place in zip(captions, places, strict=True)], np.float32)
         self._handles.append(
@@ -133,37 +181,57 @@ class Captions:
                 f"{root}/lines", lines, _GREY, thickness=1.5, thickness_units="screen"
             )
         )
-        for number, (caption, place) in enumerate(zip(captions, places, strict=True)):
+        for number, (caption, place, height) in enumerate(zip(captions, places, heights, strict=True)):
             self._handles.append(
                 self._scene.add_label(
                     f"{root}/{number}",
                     caption.text,
                     position=(float(place[0]), float(place[1]), float(place[2])),
                     font_size_mode="scene",
-                    font_scene_height=HEIGHT * self._reach,
+                    font_scene_height=float(height),
                     anchor="center-left",
                 )
             )
 
 
-def of_points(captures: Sequence[Capture], view: View, reach: float) -> tuple[list[Caption], np.ndarray]:
-    """Numbers of recorded points, and places (n, 3) for them over the flanges, on a line of its own each.
+def boxes(words: Captions, seen: Seen) -> list[tuple[float, float, float, float]]:
+    """What shown words, which begin where they stand, take of the window: left, right, bottom, top [px]."""
+    captions, places, heights = words.shown
+    out = []
+    for caption, (x, y, depth), height in zip(captions, seen.of(places), heights, strict=True):
+        size = seen.pixels(height, depth)
+        high = 0.5 * _RIM * size
+        # A letter more at either end: a number beside "2: 0.14 mm" would read as one with it.
+        out.append((x - _LETTER * size, x + (len(caption.text) + 1) * _LETTER * size, y - high, y + high))
+    return out
 
-    Args:
-        view: from where they are not to cover each other.
-        reach: of the arm [m].
+
+def of_points(
+    captures: Sequence[Capture],
+    seen: Seen,
+    reach: float,
+    taken: Sequence[tuple[float, float, float, float]] = (),
+) -> tuple[list[Caption], np.ndarray, np.ndarray]:
+    """Numbers of recorded points, (n, 3) places over the flanges for them, and (n,) their height [m].
+
+    Where one would cover another, or what is `taken` (left, right, bottom, top [px]), it stands over that; one that has
+    no room near its flange is left out: in a low window, or far away.
     """
     found = [Caption(str(number), c.T_base_flange.position) for number, c in enumerate(captures, 1)]
-    places = np.array([c.about for c in found]).reshape(-1, 3)
-    if not len(found):
-        return found, places
-    places[:, 2] += HEIGHT * reach
-    eye, centre = view
-    ahead = (centre - eye) / np.linalg.norm(centre - eye)
-    up = np.array([0.0, 0.0, 1.0]) - ahead[2] * ahead
-    up /= np.linalg.norm(up)
-    depths = (places - eye) @ ahead
-    heights = (places - eye) @ up / depths  # as seen
-    apart = spread(heights, _APART * HEIGHT * reach / float(depths.min()))
-    places[:, 2] += (apart - heights) * depths / (up[2] - apart * ahead[2])
-    return found, places
+    if not found:
+        return found, np.zeros((0, 3)), np.zeros(0)
+    at = seen.of(np.array([c.about for c in found]))
+    stood, kept = list(taken), []
+    for k in sorted(range(len(found)), key=lambda k: at[k, 1]):
+        size = line_px(seen, at[k, 2], reach)
+        half, high = 0.5 * (len(found[k].text) * _LETTER + _APART - 1.0) * size, 0.5 * _APART * size
+        x, y = at[k, 0], at[k, 1] + size
+        for left, right, bottom, top in sorted(stood, key=lambda one: one[2]):
+            if x - half < right and left < x + half and y - high < top and bottom < y + high:
+                y = top + high
+        if y - at[k, 1] <= _AWAY * size:
+            stood.append((x - half, x + half, y - high, y + high))
+            kept.append((k, (x, y, at[k, 2]), seen.metres(size, at[k, 2])))
+    kept.sort(key=lambda one: one[0])
+    places = seen.at(np.array([place for _, place, _ in kept]))
+    return [found[k] for k, _, _ in kept], places, np.array([height for _, _, height in kept])

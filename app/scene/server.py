@@ -51,6 +51,8 @@ class SceneServer(viser.ViserServer):
             super().__init__(host="127.0.0.1", port=0, label="Teachframe", verbose=False)
         self.scene.world_axes.visible = False
         self.sized: Callable[[], None] = lambda: None  # a new page has said how large its window is
+        #: Width and height of the window as its page measures it [px]: viser counts the pixels it draws, and later.
+        self.window: tuple[float, float] | None = None
         self.on_client_connect(self._arrived)
 
     def _arrived(self, client: viser.ClientHandle) -> None:

@@ -4,17 +4,27 @@ from __future__ import annotations
 
 import itertools
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
+from app.calibration.captures import Capture
 from app.calibration.result import ToolCalibration
 from app.calibration.verify import Verification
 from app.geometry import Pose
 from app.scene.arm import ArmView
 from app.scene.camera import CLOSE_UPS, FOLLOWING, MORE_VIEWS, VIEWS, framed, look, look_straight
-from app.scene.camera import result as result_view
-from app.scene.captions import Captions, column, of_axes, of_points, of_result
+from app.scene.captions import (
+    Caption,
+    Captions,
+    boxes,
+    column,
+    fitting,
+    of_axes,
+    of_points,
+    of_result,
+    room_beside,
+)
 from app.scene.cell import draw_cell
 from app.scene.eyes import Eyes
 from app.scene.ground import lay_floor, light_up
@@ -39,6 +49,7 @@ _NUMBERS = itertools.count(1)
 _FOLLOW = from_mm(2.0)  # the tip moves this far before a near view moves with it
 _HANDLE_EVERY = 0.1  # seconds between two places of the handle while the arm moves
 _BODY = 0.13  # half the width of an arm about its joints, as a share of the reach
+_LAID_OUT = 6  # passes in which words and what frames them find each other
 _HANDLE = 0.13  # size of the handle, as a share of the reach
 
 
@@ -79,7 +90,10 @@ class Stage:
         self._near = self._looked_at = self._tracing = False
         self._instead: Callable[[], Instead] | None = None
         self._reach = reach
-        self._numbers, self._words = Captions(self._scene, reach), Captions(self._scene, reach)
+        self._numbers, self._words = Captions(self._scene), Captions(self._scene)
+        self._said: list[Caption] = []  # of the result, and the recorded points that are numbered
+        self._numbered: Sequence[Capture] = ()
+        self._words_at = np.zeros(3)  # where the tip of the result is
         self._drawn: tuple[object, ...] = ()
         self._hand = world.hand(world.robot.home)
         self._shown: Pose | None = None  # where the handle was put last, and when
@@ -154,11 +168,14 @@ class Stage:
             self._followed = self._tip
         self._eye = eye - centre
         if name == "result":
-            # The arm stands as high as its last stroke has it, and no part of it may be cut off.
-            points = self._about_result(eye - centre)
-            look_straight(self.eyes, framed(points, eye - centre, self.eyes.aspect, 0.88))
-            return
-        look(self.eyes, (eye, centre), nearer=name == "whole")
+            look_straight(self.eyes, (eye, centre))
+            for _ in range(_LAID_OUT):  # the words are as large as they are seen
+                # The arm stands as high as its last stroke has it, and no part of it may be cut off.
+                points = self._about_result(eye - centre)
+                look_straight(self.eyes, framed(points, eye - centre, self.eyes.aspect, 0.88))
+        else:
+            look(self.eyes, (eye, centre), nearer=name == "whole")
+        self._letter()
 
     def _about_result(self, back: np.ndarray) -> np.ndarray:
         """(n, 3) what a look at a result has to show from where `back` (3,) points: arm, spike, words [m]."""
@@ -168,8 +185,10 @@ class Stage:
         half = _BODY * self._reach
         arm = np.vstack([np.zeros(3), joints])
         bodies = [arm - half * right, arm + half * right, arm + 1.6 * half * np.array([0.0, 0.0, 1.0])]
-        written = [self._words.corners(right), self._numbers.corners(right)]
-        return np.vstack([*bodies, self._tip, self._world.p_base_spike_drawn, *written])
+        seen, spike = self.eyes.seen, self._world.p_base_spike_drawn
+        written = room_beside(self._said, self._words_at, seen, self._reach)
+        numbers = of_points(self._numbered, seen, self._reach)[1]
+        return np.vstack([*bodies, self._tip, spike, written, numbers])
 
     def want_handle(self, *, shift: bool, turn: bool) -> None:
         """Somebody asked for the handle, with these parts: it is there in a near view, too."""
@@ -188,14 +207,24 @@ class Stage:
 
     def _write(self, result: ToolCalibration | None, *, misses: bool) -> None:
         """What the drawings of a result say."""
-        self._words.clear()
-        if result is None or not len(result.residual_vectors):
-            return
-        flange = self._world.robot.forward(self.arm.q).matrix
-        captions = [*of_result(result, misses=misses), *of_axes(result, flange)]
-        ahead = np.array([*result.p_base[:2], 0.0])
-        ahead /= max(float(np.linalg.norm(ahead)), 1e-9)
-        self._words.show(captions, column(captions, result.p_base, ahead, self._reach))
+        self._said = []
+        if result is not None and len(result.residual_vectors):
+            flange = self._world.robot.forward(self.arm.q).matrix
+            self._said = [*of_result(result, misses=misses), *of_axes(result, flange)]
+            self._words_at = result.p_base
+
+    def _letter(self) -> None:
+        """Words and numbers, laid out for what is seen now."""
+        seen = self.eyes.seen
+        said = fitting(self._said, seen)
+        self._words.show(said, *column(said, self._words_at, seen, self._reach))
+        self._numbers.show(*of_points(self._numbered, seen, self._reach, boxes(self._words, seen)))
+
+    def window(self, size: tuple[float, float]) -> None:
+        """The page's window is so wide and so high [px]."""
+        if size != self._server.window:
+            self._server.window = size
+            self._letter()
 
     def follow(self) -> None:
         """The handle catches up with the arm; the near views keep the tip in their middle."""
@@ -231,7 +260,7 @@ class Stage:
         self._drawn = wanted
         shown = state.ordered if self.show_marks and not self._tracing else ()
         self.marks.show(shown)
-        self._numbers.show(*of_points(shown, result_view(self._world), self._reach))
+        self._numbered = shown
         # A result that waits for its decision is looked at, not moved: the handle would hide the arrows.
         self._looked_at = result is not None and not accepted(state)
         self._place_handle()
@@ -239,6 +268,7 @@ class Stage:
         region = result if self.show_residuals and not self._tracing else None
         self.region.show(region)
         self._write(region, misses=not accepted(state))
+        self._letter()
         tool = (
             result.T_flange_tool if result is not None else state.tool.T_flange_tool if state.tool else None
         )

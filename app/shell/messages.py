@@ -50,7 +50,7 @@ class Joint(_In, frozen=True, tag="joint"):
 
 
 class Choose(_In, frozen=True, tag="choose"):
-    """Frame, increment, override, language, dark, view, handle."""
+    """Frame, increment, override, language, dark, view, handle, window: width and height of the scene's [px]."""
 
     what: str
     value: bool | float | str

@@ -16,6 +16,7 @@ from app.kinematics import RobotModel
 from app.scene.camera import CLOSE_UPS, VIEWS
 from app.scene.client_page import client_page
 from app.scene.pages import Frames
+from app.scene.seen import window_size
 from app.scene.server import PROTOCOL, SceneServer
 from app.screens import screens
 from app.screens.context import Context
@@ -182,6 +183,8 @@ class Live:
             context.post(lambda: self._darken(value))
         elif what == "view" and value in self.choices()["views"]:
             context.post(lambda: context.stage.view(str(value)))
+        elif what == "window" and (size := window_size(value)) is not None:
+            context.post(lambda: context.stage.window(size))
         elif what == "handle" and value in _HANDLES:
             shift, turn = _HANDLES[value]
             context.post(lambda: context.stage.want_handle(shift=shift, turn=turn))

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Literal
-
 import msgspec
 import numpy as np
 
 from app.geometry import CONVENTIONS, Pose
 from app.kinematics import RobotModel
 from app.screens._tool.words import Words
+from app.screens._training import headline
 from app.screens.context import Context
+from app.session.motion.drive import How
 from app.session.motion.user_frame import user_frame
 from app.units import deg, mm
 from app.workers.axes import pairs
@@ -39,7 +39,7 @@ class Read(msgspec.Struct, frozen=True, tag_field="t", tag="read"):
     """Everything on the page's frame.
 
     Args:
-        how: `standing`, `moving`, `waiting` for the switch, `stopped`.
+        how: `standing`, `moving`, `waiting` for the switch, `measuring` without it, `stopped`.
         enabled, tripped: the enabling switch is held; it fell silent and has to be let go.
         errand: what a motion that waits or runs is for.
         frame, increment, override: how it is jogged.
@@ -50,6 +50,7 @@ class Read(msgspec.Struct, frozen=True, tag_field="t", tag="read"):
         touch: tip and spike in words; touching: they meet.
         hit: names of two bodies that are as near as the guard lets them come.
         points: recorded and all.
+        task, clock: name and time of the exercise that is being done; empty for none.
         level, message: what was said last; said: its number.
         screen: a screen that wants to be opened.
         own: False while another arm than the session's own is seen.
@@ -59,7 +60,7 @@ class Read(msgspec.Struct, frozen=True, tag_field="t", tag="read"):
         watched: a trainer looks on.
     """
 
-    how: Literal["standing", "moving", "waiting", "stopped"]
+    how: How
     state: str
     enabled: bool
     tripped: bool
@@ -86,6 +87,8 @@ class Read(msgspec.Struct, frozen=True, tag_field="t", tag="read"):
     hinted: str = ""
     hints: int = 0
     watched: bool = False
+    task: str = ""
+    clock: str = ""
 
 
 def read(context: Context, hints: Hinted) -> Read:
@@ -141,6 +144,8 @@ def read(context: Context, hints: Hinted) -> Read:
         hinted=hint.text if hint is not None else "",
         hints=hints.count,
         watched=hints.watched,
+        task=headline.title(context, state.running) if state.running is not None else "",
+        clock=headline.clock(state.running) if state.running is not None else "",
     )
 
 

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from app.apart import GivenUpError
+from app.diagnosis.report.drawing.bars import before_after_bars
 from app.diagnosis.result import Diagnosis, Leftover, Noise, Quality
 from app.screens._compare import finding, plots
 
@@ -78,7 +79,7 @@ GAP_PX = 6
 
 @pytest.mark.parametrize("unit", ["mm", "Nm"])
 def test_the_unit_of_the_bars_keeps_off_the_last_number(sit_down, unit):
-    """The number of a tick at the very end ran into the unit behind it, in a panel of any width."""
+    """The number of a tick at the very end ran into the unit behind it, in a panel of any width and in a report."""
     person = sit_down()
     person.screen("compare")
     script = _TOUCHING.replace("GAP", str(GAP_PX))
@@ -90,6 +91,8 @@ def test_the_unit_of_the_bars_keeps_off_the_last_number(sit_down, unit):
         )  # fmt: skip
         for wide in (280, 324, 360, 700):
             assert not (near := person.page.evaluate(script, [plots.bars(drawn), wide])), (most, wide, near)
+        sheet = plots._framed(before_after_bars(drawn), "sheet", "en")  # as wide as a report draws it
+        assert not (near := person.page.evaluate(script, [sheet, 700])), (most, near)
 
 
 def log_file(folder, case):

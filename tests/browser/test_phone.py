@@ -50,6 +50,18 @@ def test_theme_and_sound_have_keys_beside_home(sit_down, brisk):
     assert page.locator("#bar #sound").is_visible()
 
 
+def test_the_scene_knows_how_large_its_window_is(sit_down, brisk):
+    """viser counts the pixels it draws; words that are to be read are laid out for those a person sees."""
+    person = sit_down("jby50", screen=PHONE, touch=True)
+    server = person.context.stage._server
+    size = (
+        "(({ clientWidth, clientHeight }) => [clientWidth, clientHeight])(document.getElementById('scene'))"
+    )
+    for screen in (PHONE, SMALL):
+        person.page.set_viewport_size(screen)
+        person.until(lambda: server.window == tuple(person.page.evaluate(size)), f"{screen}")
+
+
 def test_the_key_that_is_pressed_next_comes_into_view(sit_down, brisk):
     person = sit_down("jby50", screen=PHONE, touch=True)
     person.page.locator("#switch button[data-part=work]").click()

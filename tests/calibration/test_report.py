@@ -29,10 +29,19 @@ def test_the_sheet_holds_picture_points_residuals_uncertainty_conditions_and_sig
         "Conditions",
         "Checked by",
         "X. Shuo",
-        "YELLOW",
+        "Light: YELLOW.",
     ):
         assert part in sheet, part
     assert sheet.count("<svg") == 4
+
+
+@pytest.mark.parametrize(("language", "light"), [("en", "Light: YELLOW."), ("zh", "指示灯：黄。")])
+def test_on_paper_the_light_is_a_word_and_not_a_colour_alone(language, light):
+    """A printer without colours leaves a grey bar."""
+    solved = solve_file(TABLE_1, method="pairwise")
+    sheet = report(solved, language=language, of="接触" if language == "zh" else "touches")
+    assert re.search(rf'<div class="light yellow"><b>{light}</b> \S', sheet)
+    assert TABLE_1.name not in sheet  # what no file holds is called by what was taught
 
 
 def test_a_rotation_vector_is_in_radians_as_universal_robots_shows_it(sheet):

@@ -7,7 +7,8 @@ import pytest
 
 from app.kinematics import robot_names
 from app.scene import camera
-from app.scene.captions import HEIGHT, column, of_axes, of_points, of_result, spread
+from app.scene.captions import HEIGHT, Caption, column, fitting, of_axes, of_points, of_result, spread
+from app.scene.seen import Seen
 from app.screens._tool.paper import PAPER
 from app.session import Session
 from app.session.actions import Calculate
@@ -27,24 +28,25 @@ def solved():
     return session.state
 
 
-def boxes(captions, places, view, aspect, reach, centred=False):
-    """Left, right, bottom, top of each caption as the eye sees them; one unit is the window's height."""
-    eye, centre = view
-    eye = centre + max(1.0, camera._NARROW / aspect) * (eye - centre)
-    ahead = (centre - eye) / np.linalg.norm(centre - eye)
-    right = np.cross(ahead, [0.0, 0.0, 1.0])
-    right /= np.linalg.norm(right)
-    up = np.cross(right, ahead)
-    scale = 0.5 / np.tan(camera._FIELD / 2.0)
-    for caption, place in zip(captions, places, strict=True):
-        seen = place - eye
-        depth = seen @ ahead
-        x, y, high = (
-            scale * (seen @ right) / depth,
-            scale * (seen @ up) / depth,
-            scale * HEIGHT * reach / depth,
-        )
-        wide, high = _WIDE * high * len(caption.text) + _RIM * high, (1.0 + _RIM) * high
+#: Width and height of the scene's window on a desk, a small one, a tablet, a phone [px].
+WINDOWS = ((596, 692), (425, 660), (820, 345), (294, 160))
+VIEWS = {**camera.VIEWS, **camera.MORE_VIEWS}
+READABLE_PX = 12.0
+
+
+def window(world, name, width, height):
+    """What a window of this shape shows in a named view."""
+    eye, centre = VIEWS[name](world)
+    nearest = camera._NEAREST if name == "whole" else 1.0
+    eye = centre + max(nearest, camera._NARROW / (width / height)) * (eye - centre)
+    return Seen(eye, centre, camera._FIELD, width, height)
+
+
+def boxes(captions, places, heights, seen, centred=False):
+    """Left, right, bottom, top of each caption as the eye sees them [px]."""
+    for caption, height, (x, y, depth) in zip(captions, heights, seen.of(places), strict=True):
+        size = seen.pixels(height, depth)
+        wide, high = (_WIDE * len(caption.text) + _RIM) * size, (1.0 + _RIM) * size
         left = x - wide / 2 if centred else x
         yield left, left + wide, y - high / 2, y + high / 2
 
@@ -53,37 +55,91 @@ def cover(one, other):
     return one[0] < other[1] and other[0] < one[1] and one[2] < other[3] and other[2] < one[3]
 
 
-@pytest.mark.parametrize("aspect", [0.6, 1.0, 1.6, 2.4])
-def test_no_words_of_a_result_cover_others(solved, aspect):
+@pytest.mark.parametrize("size", WINDOWS)
+def test_no_words_of_a_result_cover_others_and_all_can_be_read(solved, size):
     world, result = default_world(solved.model), solved.result.result
     reach = float(world.robot.description["reach_m"])
     flange = world.robot.forward(np.array(solved.q)).matrix
     captions = [*of_result(result, misses=True), *of_axes(result, flange)]
-    ahead = np.array([*result.p_base[:2], 0.0]) / np.linalg.norm(result.p_base[:2])
-    places = column(captions, result.p_base, ahead, reach)
     assert len(captions) == len(result.per_point) + 1 + len(result.cones) == 7
-    for name in ("result", "whole", "front"):
-        view = {**camera.VIEWS, **camera.MORE_VIEWS}[name](world)
-        found = list(boxes(captions, places, view, aspect, reach))
+    for name in VIEWS:
+        seen = window(world, name, *size)
+        places, heights = column(captions, result.p_base, seen, reach)
+        found = list(boxes(captions, places, heights, seen))
         assert not [pair for pair in itertools.combinations(found, 2) if cover(*pair)], name
+        assert all(
+            seen.pixels(h, d) >= READABLE_PX for h, (_, _, d) in zip(heights, seen.of(places), strict=True)
+        )
+        edge = np.array(found) / (np.array([size[0], size[0], size[1], size[1]]) / 2)
+        assert np.abs(edge).max() <= 1.0, (name, "out of the window")
 
 
 def test_where_they_spoke_before_they_did_cover_each_other(solved):
     """The same words at the arrows' ends: what the column is for."""
     world, result = default_world(solved.model), solved.result.result
     captions = of_result(result, misses=True)
-    found = list(boxes(captions, [c.about for c in captions], camera.result(world), 1.6, 3.0))
+    seen = window(world, "result", *WINDOWS[0])
+    heights = np.full(len(captions), HEIGHT * 3.0)
+    found = list(boxes(captions, np.array([c.about for c in captions]), heights, seen))
     assert any(cover(*pair) for pair in itertools.combinations(found, 2))
 
 
-def test_numbers_of_points_do_not_cover_each_other(solved):
+@pytest.mark.parametrize("size", WINDOWS)
+def test_numbers_of_points_cover_neither_each_other_nor_what_stands_there(solved, size):
     world = default_world(solved.model)
     reach = float(world.robot.description["reach_m"])
-    captions, places = of_points(solved.ordered, camera.result(world), reach)
-    found = list(boxes(captions, places, camera.result(world), 1.6, reach))
-    assert [c.text for c in captions] == list("123456")
+    for name, taken in itertools.product(VIEWS, ([], [(-60.0, 40.0, -10.0, 30.0), (0.0, 90.0, 35.0, 50.0)])):
+        seen = window(world, name, *size)
+        captions, places, heights = of_points(solved.ordered, seen, reach, taken)
+        found = [*boxes(captions, places, heights, seen, centred=True), *taken]
+        covered = [pair for pair in itertools.combinations(found, 2) if cover(*pair)]
+        assert not [pair for pair in covered if pair[0] not in taken], name
+        away = seen.of(places)[:, 1] - seen.of([c.about for c in captions])[:, 1]
+        assert away.max(initial=0.0) < 45.0, "far from what it numbers"
+        if size == WINDOWS[0] and not taken and name == "result":
+            assert [c.text for c in captions] == list("123456")
+        if not taken:
+            assert len(captions) >= 3, (name, size)
+
+
+def test_where_not_all_can_be_read_the_smallest_misses_are_left_out(solved):
+    world = default_world(solved.model)
+    many = [
+        Caption(f"{k}: {k / 10:.2f} mm", np.array([1.0, 0.0, 1.0 + k / 50]), k / 1e4) for k in range(1, 12)
+    ]
+    many += [Caption("95% ×20", np.array([1.0, 0.0, 1.0]))]
+    low, high = window(world, "result", *WINDOWS[3]), window(world, "result", *WINDOWS[0])
+    kept = [c.text for c in fitting(many, low)]
+    assert kept[-1] == "95% ×20" and kept[-2] == "11: 1.10 mm" and "1: 0.10 mm" not in kept and len(kept) > 6
+    places, heights = column(fitting(many, low), np.array([1.0, 0.0, 1.1]), low, 1.4)
+    found = list(boxes(fitting(many, low), places, heights, low))
     assert not [pair for pair in itertools.combinations(found, 2) if cover(*pair)]
-    assert np.abs(places[:, 2] - [c.about[2] for c in captions]).max() < 0.15 * reach
+    assert [c.text for c in fitting(many, high)] == [c.text for c in many]
+
+
+def test_a_window_gives_back_what_it_was_given():
+    seen = Seen(np.array([2.0, -1.0, 1.5]), np.array([0.2, 0.1, 0.5]), 0.75, 820.0, 345.0)
+    points = np.random.default_rng(0).uniform(-0.5, 0.5, (20, 3))
+    assert np.allclose(seen.at(seen.of(points)), points)
+    assert np.allclose(seen.of(seen.centre)[0][:2], 0.0)
+
+
+def test_words_are_laid_out_anew_for_another_view_and_another_window(sit_at):
+    desk = sit_at(robot="jby50")
+    context, stage = desk.context, desk.context.stage
+    desk.does(lambda: (context.do(load_action(PAPER, method="pairwise")), context.do(Calculate())))
+    desk.live.choose("view", "whole")
+    desk.idle()
+    wide = stage._words.shown[2].max()
+    assert desk.live.choose("window", "294 160")
+    for no_window in (160, "1 1", "294", "294 160 2", "-294 160", "1e3 160", "99999 160", "²94 160"):
+        assert not desk.live.choose("window", no_window), no_window
+    desk.idle()
+    low = stage._words.shown[2].max()
+    assert low > 2.0 * wide  # so many metres are as many pixels in so low a window
+    desk.live.choose("view", "close")
+    desk.idle()
+    assert stage._words.shown[2].max() < 0.5 * low
 
 
 def test_heights_are_spread_no_further_than_they_must_be():

@@ -28,6 +28,7 @@ def report(
     made: str = "",
     operator: str = "",
     language: str = FALLBACK,
+    of: str = "",
 ) -> str:
     """One solved points file as one sheet.
 
@@ -37,14 +38,16 @@ def report(
         made: date and time as text; empty leaves a line to fill in.
         operator: name, likewise.
         language: of the sheet.
+        of: what was taught, in that language, where the points are of no file.
     """
-    return _Sheet(solved, name, made, operator, language).page()
+    return _Sheet(solved, name, made, operator, language, of).page()
 
 
 class _Sheet:
-    def __init__(self, solved: Solved, name: str, made: str, operator: str, language: str):
+    def __init__(self, solved: Solved, name: str, made: str, operator: str, language: str, of: str = ""):
         self._solved, self._result, self._points = solved, solved.result, solved.points
         self._name, self._made, self._operator, self._language = name, made, operator, language
+        self._of = (of,) if of else (self._points.path.name, self._points.title)
 
     def _t(self, key: str, **fields: object) -> str:
         """A text of the sheet."""
@@ -57,8 +60,8 @@ class _Sheet:
     def page(self) -> str:
         """The whole document."""
         solved, points, t = self._solved, self._points, self._t
-        robot = points.robot.title if points.robot else t("not_stated")
-        head = [points.path.name, points.title, t("robot", name=robot), self._made]
+        robot = points.robot.said("title", self._language) if points.robot else t("not_stated")
+        head = [*self._of, t("robot", name=robot), self._made]
         measured = bool(len(self._result.residual_vectors))
         return (
             templates(__file__)
@@ -67,10 +70,10 @@ class _Sheet:
                 t=t,
                 language=self._language,
                 title=t("title_named", name=self._name) if self._name else t("title"),
-                file=points.path.name,
+                file=self._of[0],
                 head=[part for part in head if part],
                 colour=solved.light.colour,
-                colour_said=phrase(f"light.{solved.light.colour}").text(self._language),
+                colour_said=t("light", colour=phrase(f"light.{solved.light.colour}")),
                 reason=solved.light.sentence(self._language),
                 point_head=(t("point"), t("value"), "95% ±"),
                 point=self._point(measured),

@@ -83,7 +83,7 @@ class _Sheet:
                 title=t("title"),
                 head=[" + ".join(self._robots), *([made] if made else [])],
                 colour=colour,
-                colour_said=phrase(f"light.{colour}").text(self._language),
+                colour_said=phrase("sheet.light", colour=phrase(f"light.{colour}")).text(self._language),
                 reason=reason,
                 value_head=("", t("value"), "95% ±"),
                 relation=self._relation_rows() if found and relation else (),

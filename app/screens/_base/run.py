@@ -15,7 +15,7 @@ from app.kinematics import RobotModel
 from app.scene.instead import Instead
 from app.scene.tracker_cell import CellDrawing
 from app.screens._base.exam import PUSH, Exam
-from app.session.motion.pace import duration, pause, travel
+from app.session.motion.pace import duration, measuring, pause, travel
 from app.simulation.tracker import Sight
 from app.simulation.tracker_cell import TrackerCell
 from app.simulation.tracker_meeting import Meeting, meet, pointer
@@ -184,10 +184,11 @@ class Run:
         step = self._step()
         arm = step.robot - 1
         if step.kind == NESTS:
-            for _ in range(len(self.now.nests) - len(self.wizard.of(step.key))):
-                self.measure()
-                told()
-                yield from pause(self._drive, 2 * _REST)
+            with measuring(self._drive):
+                for _ in range(len(self.now.nests) - len(self.wizard.of(step.key))):
+                    self.measure()
+                    told()
+                    yield from pause(self._drive, 2 * _REST)
         else:
             angles = [float(self.now.arms[arm].rest[0])]
             if step.kind == TURN:

@@ -9,9 +9,10 @@ from app.calibration.exchange import ToolFrame, exchange_format, read_frame
 from app.calibration.report import report
 from app.panel import Upload
 from app.screens._tool.paper import calculate
+from app.screens._tool.words import Words
 from app.screens.taking_in import Around, take_small
 from app.session.actions import ChooseMode, Enter
-from app.session.state import DIRECT, as_tuple
+from app.session.state import DIRECT, as_tuple, mode_named
 
 if TYPE_CHECKING:
     from app.screens.context import Context
@@ -36,8 +37,13 @@ def send_report(context: Context, name: str) -> None:
     solved = context.session.state.result
     if solved is None:
         return
+    state = context.session.state
     page = report(
-        solved, name=name, made=datetime.now().strftime("%Y-%m-%d %H:%M"), language=context.language
+        solved,
+        name=name,
+        made=datetime.now().strftime("%Y-%m-%d %H:%M"),
+        language=context.language,
+        of=Words(context).mode(mode_named(state.mode)) if state.source is None else "",
     )
     file = f"{ToolFrame(name, solved.result.T_flange_tool).name}.html"
     context.send(file, page.encode("utf-8"))

@@ -142,7 +142,7 @@ class Verifying:
             "message.verified_good" if found.good else "message.verified_not",
             mm=f"{mm(found.wander):.2f}",
             off=f"{mm(found.off):.2f}",
-            most=f"{mm(TOLERANCE):.1f}",
+            most=f"{mm(TOLERANCE):.2f}",
         )
         if found.hindered is not None:
             words += " " + t("message.verified_stopped", reason=self._context.why(found.hindered))

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import time
 from typing import TYPE_CHECKING
 
 from app.classroom.progress import Lesson
 from app.panel import markup as html
+from app.screens._training import headline
 from app.screens._training.lesson import verdict
 from app.session import SessionState
 from app.session.report import moment
@@ -88,8 +88,7 @@ def running(context: Context, now: Running) -> str:
     t, state = context.t, context.session.state
     chosen = begun_exercise(now.begun)
     words = chosen.said(context.language)
-    seconds = max(0, int(time.time() - now.begun.at))
-    rows = [(t("training.clock"), f"{seconds // 60}:{seconds % 60:02d} / {chosen.aims.minutes:g}:00")]
+    rows = [(t("training.clock"), headline.clock(now))]
     if now.wizard is not None:
         rows.append((t("training.steps"), f"{now.wizard.index} / {len(now.wizard.steps)}"))
     else:
@@ -102,7 +101,7 @@ def running(context: Context, now: Running) -> str:
     level = level_of(now.begun)
     hints = html.paragraph(words.learn, testid="exercise-hint") if level != "eye" else ""
     return (
-        html.instruction(f"{words.title} · {t(f'training.level_{level}')}", words.task)
+        html.instruction(headline.title(context, now), words.task)
         + html.table(rows, testid="exercise-progress")
         + html.paragraph(hint, faint=True, testid="exercise-where")
         + (html.more(t("training.hint"), hints) if hints else "")

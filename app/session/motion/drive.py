@@ -24,7 +24,7 @@ from app.simulation.guard import Guard, Stop
 from app.simulation.route import route
 from app.simulation.world import World, default_tool
 
-How = Literal["standing", "moving", "waiting", "stopped"]
+How = Literal["standing", "moving", "waiting", "measuring", "stopped"]
 #: Motions that end when another begins, by the name the worker knows them by.
 MOTIONS = ("move", "jog", "drag", "base", "replay")
 _FLANGE = Pose.of(None, np.zeros(3))
@@ -80,6 +80,7 @@ class Drive:
         self.q = np.array(session.state.q)
         self._guard: Guard | None = None
         self.errand = ""  # what a motion that waits for the switch is for
+        self.measuring = False  # what runs looks at what stands: no arm moves, and it needs no switch
         self.met: Stop | None = None  # what stopped the arm, until it moves on
 
     # What it is asked -------------------------------------------------------------------------------------
@@ -96,12 +97,21 @@ class Drive:
 
     @property
     def how(self) -> How:
-        """`stopped`, `moving`, `waiting` for the switch, or `standing`."""
+        """`stopped`, `moving`, `waiting` for the switch, `measuring` without it, or `standing`."""
         if self.enabling.stopped:
             return "stopped"
-        if any(map(self.worker.running, MOTIONS)):
+        if self.moves:
             return "moving" if self.live else "waiting"
-        return "standing"
+        return "measuring" if self._runs else "standing"
+
+    @property
+    def _runs(self) -> bool:
+        return any(map(self.worker.running, MOTIONS))
+
+    @property
+    def moves(self) -> bool:
+        """True while the arm moves, or waits for the switch to move."""
+        return self._runs and not self.measuring
 
     @property
     def T_flange_tool(self) -> Pose:

@@ -80,11 +80,13 @@ class Jogging:
 
     def _watch(self) -> Iterator[None]:
         """Tells when the switch was let go, or fell silent."""
-        drive = self._drive
+        drive, moved = self._drive, False
         while drive.live:
+            moved = drive.moves  # a jog may see the silence before this does, and is no more
             yield
         if drive.enabling.tripped and not drive.enabling.stopped:
-            drive.voice.say("warning", drive.voice.t("message.silent"))
+            level, key = ("warning", "silent") if moved else ("info", "silent_standing")
+            drive.voice.say(level, drive.voice.t(f"message.{key}"))
         drive.worker.post(drive.rested)
 
     def _take(self, held: tuple[Jog, int]) -> None:

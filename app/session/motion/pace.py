@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from typing import Protocol
 
 import numpy as np
@@ -29,6 +30,12 @@ class Paced(Protocol):
     def live(self) -> bool:
         """True while the arm may move."""
         ...
+
+
+class Measured(Protocol):
+    """What measures without moving."""
+
+    measuring: bool
 
 
 class Pace:
@@ -98,6 +105,16 @@ def pause(drive: Paced, seconds: float) -> Iterator[None]:
     end = drive.clock() + seconds
     while drive.clock() < end:
         yield
+
+
+@contextmanager
+def measuring(drive: Measured) -> Iterator[None]:
+    """What runs within looks at what stands: no arm moves, and it needs no switch."""
+    drive.measuring = True
+    try:
+        yield
+    finally:
+        drive.measuring = False
 
 
 def tool_points(T_flange_tool: Pose, drawn: Pose) -> np.ndarray:

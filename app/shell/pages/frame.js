@@ -26,6 +26,12 @@ function settle() {
     else $("bar").insertBefore($(id), $("beside"));
 }
 
+// Words in the scene are laid out for its window, which only the page knows in its own measure.
+const sized = () => {
+  const { clientWidth, clientHeight } = $("scene");
+  if (clientHeight) say({ t: "choose", what: "window", value: `${clientWidth} ${clientHeight}` });
+};
+
 function segment(place, keys, label, pick) {
   place.replaceChildren(...keys.map((key) => {
     const button = document.createElement("button");
@@ -74,6 +80,7 @@ export function greet(hello) {
   mark($("handles"), "both");
   shape = "";
   said = null;
+  sized();
   if (last) show(last);
 }
 
@@ -154,6 +161,9 @@ export function show(read) {
   put($("touch"), read.touch);
   $("touch").classList.toggle("on", read.touching);
   put($("points"), read.points.replace(/^\D+/, ""));
+  put($("task"), read.task);
+  $("task").title = read.task;
+  put($("clock"), read.clock);
   put($("override-said"), read.override + " %");
   if (document.activeElement !== $("override")) $("override").value = read.override;
   mark($("frames"), read.frame);
@@ -170,7 +180,7 @@ export function show(read) {
   stop.classList.toggle("latched", latched);
   put(stop, t(latched ? "page.release" : "page.stop"));
   stop.setAttribute("aria-label", t(latched ? "page.release_long" : "page.stop_long"));
-  $("errand").hidden = read.how !== "waiting" && !(read.how === "moving" && read.errand);
+  $("errand").hidden = read.how !== "waiting" && !(["moving", "measuring"].includes(read.how) && read.errand);
   put($("errand-said"), (read.how === "waiting" ? t("page.wait") + ": " : "") + read.errand);
   message(read);
   pressed();
@@ -214,6 +224,7 @@ function pressed() {
 
 export function begin() {
   phone.onchange = settle;
+  new ResizeObserver(sized).observe($("scene"));
   settle();
   onShown(pressed);
   holdable($("enable"), (who) => enable(who, true), (who) => enable(who, false));

@@ -191,7 +191,7 @@ def test_a_typed_tool_that_is_off_is_sent_back_though_nothing_was_predicted(desk
         until(lambda: desk.tool.deciding.verifying._done, "the turn")
     said = plain(desk.tool.deciding.verifying._text.content)
     assert "wandered" in said and "nan" not in said
-    assert "MORE than 0.8 mm. Teach again" in said and desk.said[0] == "warning"
+    assert "MORE than 0.75 mm. Teach again" in said and desk.said[0] == "warning"
     assert desk.tool.deciding.verifying.found.wander > from_mm(1.0)
     assert "The turn did not confirm it: teach again" in desk.read()
     again = desk.tool.deciding._again

@@ -75,6 +75,24 @@ def test_silence_stops_the_arm_and_a_woken_page_has_to_let_go_first(desk, monkey
     until(lambda: not np.array_equal(desk.q, stands), "the arm to move again")
 
 
+@pytest.mark.parametrize("before", ["nothing", "a jog that has ended"])
+def test_where_the_arm_stood_a_silence_is_no_stop(desk, monkeypatch, before):
+    """A window that was covered for a moment said "the arm was stopped" to somebody who only held the switch."""
+    monkeypatch.setattr(enabling, "SILENCE", 0.3)
+    if before != "nothing":
+        desk.jog("joint", 2, seconds=0.2)
+    desk.live.beat(True, None, 0, 0)
+    until(lambda: desk.drive.live, "the switch")
+    until(lambda: desk.drive.enabling.tripped, "the silence")
+    until(lambda: any("Enabling has ended" in words for _, _, words in desk.context.log), "that it is told")
+    assert desk.said[0] == "info"
+    assert not any("stopped" in words for _, _, words in desk.context.log)
+    desk.live.beat(True, 0, 1, 7)  # pressed without letting go: why nothing moves
+    until(lambda: "let go of everything" in desk.said[1], "why nothing moves")
+    assert "stopped" not in desk.said[1]
+    desk.live.beat(False, None, 0, 0)
+
+
 def test_from_the_last_word_to_the_last_pose_it_is_never_more_than_a_fifth_of_a_second(desk, monkeypatch):
     monkeypatch.setattr(enabling, "SILENCE", 0.16)
     tips, longest = watched(desk), 0.0

@@ -36,7 +36,8 @@ def before_after_bars(diagnosis: Diagnosis, *, width: float = WIDTH) -> str:
         x = LEFT + value * scale
         out.append(svg.tag("line", klass="grid", x1=x, x2=x, y1=6, y2=bottom))
         out.append(svg.text(x, bottom + 12, tick_text(value), klass="tick mid"))
-    out.append(svg.text(width - RIGHT + 6, bottom + 12, unit, klass="label"))
+    # It ends where the paper does: the last number may stand at the end of the scale, half of it beyond.
+    out.append(svg.text(width - 4, bottom + 12, unit, klass="label end"))
     y = 10.0
     for label, bars in rows:
         out.append(svg.text(LEFT - 8, y + len(bars) * BAR / 2 + 2, label, klass="label end"))
