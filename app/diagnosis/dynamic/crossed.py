@@ -40,17 +40,18 @@ def by_prediction(study: Study, unfinished: bool) -> Selection:
         unfinished: True where structure is left.
     """
     chosen = study.selection
-    single = study.prior is None and study.state.joints == 1
-    if not unfinished and not single:
-        return chosen  # what has no name there would be dropped with a curve in time, and names be given without it
     if study.prior is not None:
-        return _earned(study)
+        return _earned(study) if unfinished else chosen
     every = dict.fromkeys(ordinary(study), TRUSTED)
     events = [g for g in chosen if not study.label(g).law.lasting]
     kept = {g: v for g, v in chosen.items() if g in study.evidence.kept or g in events}
     alone, beside = {**kept, **every}, {**_beside(study, chosen, every), **every}
     far = Crossed(study, {**chosen, **every}, parts_of(len(study.y)), events)
-    if not unfinished and min(map(far.total, [alone, beside])) >= (1.0 - PLAINLY) * far.total(chosen):
+    plainly = (1.0 - PLAINLY) * far.total(chosen)
+    if not unfinished and study.state.joints > 1:
+        # What has no name would be pruned with a curve in time, and names be given without it: all of it stays.
+        return beside if far.total(beside) < plainly else chosen
+    if not unfinished and min(map(far.total, [alone, beside])) >= plainly:
         return chosen
     first = _earned(study)
     best = min([far.pruned(beside, every), alone, kept], key=far.total)
