@@ -100,8 +100,9 @@ class Desk:
             self.does(job)
             self.rests()
 
-    def jog(self, frame, axis, sign=1, seconds=0.0, enabled=True):
-        """Holds a button of a pair, and the switch, for so long or until the motion has begun."""
+    def jog(self, frame, axis, sign=1, seconds=0.0, enabled=True, till=None):
+        """Holds a button of a pair, and the switch: for so long, until the motion has begun, or `till` what it is for
+        is so: on a machine that stands still for a moment, time passes and nothing moves."""
         self.live.choose("frame", frame)
         self.idle()
         self._press += 1
@@ -111,9 +112,12 @@ class Desk:
             lambda: self.context.worker.running("jog") or len(self.context.log) > said,
             "the motion, or why there is none",
         )
-        time.sleep(max(seconds, 0.05))
+        if till is not None:
+            until(till, f"what the jog is for; {self.context.log[-2:]}")
+        else:
+            time.sleep(max(seconds, 0.05))
         self.idle()
-        if seconds == 0.0 and self.context.jogging.increment != "continuous":
+        if seconds == 0.0 and till is None and self.context.jogging.increment != "continuous":
             self.rests()
         self.live.beat(False, None, 0, 0)
         self.rests()

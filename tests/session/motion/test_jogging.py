@@ -53,7 +53,7 @@ def test_nothing_moves_unless_the_switch_is_held(desk):
 
 def test_a_held_button_moves_one_joint_and_where_it_rests_is_written(desk):
     before = desk.q.copy()
-    desk.jog("joint", 2, seconds=0.4)
+    desk.jog("joint", 2, till=lambda: desk.q[2] > before[2])
     moved = desk.q - before
     assert moved[2] > 0 and not np.delete(moved, 2).any()
     assert np.array_equal(desk.state.q, desk.q)
@@ -198,7 +198,7 @@ def test_a_table_stops_the_tip_before_it_is_hit_and_is_named(desk):
     q, world = desk.q.copy(), desk.context.world
     q[0] += 0.25  # beside the spike, over the table
     desk.place(q)
-    desk.jog("base", 2, -1, seconds=3.0)
+    desk.jog("base", 2, -1, till=lambda: not desk.context.worker.running("jog"))
     words = desk.said[1]
     assert "would hit the table" in words, words
     height = world.tip(desk.q).position[2] - world.table_height
@@ -208,8 +208,9 @@ def test_a_table_stops_the_tip_before_it_is_hit_and_is_named(desk):
     desk.jog("base", 2, -1, seconds=0.1)
     assert "工作台" in desk.said[1]
     low = desk.q.copy()
-    desk.jog("base", 2, 1, seconds=0.3)  # away is always free
-    assert world.tip(desk.q).position[2] > world.tip(low).position[2]
+    higher = lambda: world.tip(desk.q).position[2] > world.tip(low).position[2]  # noqa: E731
+    desk.jog("base", 2, 1, till=higher)  # away is always free
+    assert higher()
 
 
 def test_contact_with_the_spike_stops_the_tip_on_its_point(desk):
@@ -222,21 +223,22 @@ def test_contact_with_the_spike_stops_the_tip_on_its_point(desk):
     )
     desk.place(above.q)
     desk.drive.override = 0.3
-    desk.jog("base", 2, -1, seconds=1.0)
+    desk.jog("base", 2, -1, till=lambda: not desk.context.worker.running("jog"))
     assert world.distance(desk.q) < from_mm(0.5)
     assert "touches the spike" in desk.said[1]
     desk.jog("base", 2, -1, seconds=0.2)  # pressed again: it goes no further
     assert world.distance(desk.q) < from_mm(0.5)
-    desk.jog("base", 2, 1, seconds=0.4)
-    assert world.distance(desk.q) > from_mm(5.0)
+    away = lambda: world.distance(desk.q) > from_mm(5.0)  # noqa: E731
+    desk.jog("base", 2, 1, till=away)
+    assert away()
 
 
 def test_a_straight_wrist_stops_a_jog_and_says_which_axes(desk):
     q = desk.q.copy()
     q[4] = 0.0  # axes 4 and 6 parallel
     desk.place(q)
-    desk.jog("tool", 3, seconds=0.6)
-    desk.jog("tool", 4, seconds=0.6)
+    for axis in (3, 4):
+        desk.jog("tool", axis, till=lambda: not desk.context.worker.running("jog"))
     said = [words for _, _, words in desk.context.log if "undo each other" in words]
     assert said and "4" in said[0] and "6" in said[0], desk.context.log[-3:]
 
