@@ -185,3 +185,11 @@ def sit_at(tmp_path, patient):
 @pytest.fixture
 def desk(sit_at):
     return sit_at()
+
+
+@pytest.fixture
+def in_the_cell(sit_at, brisk):
+    """Two robots with their tracker: the desk, and the view of the procedure."""
+    desk = sit_at("two", robot="irb120")
+    desk.press("Open the cell")
+    return desk, desk.view("run")

@@ -6,13 +6,6 @@ from app.screens._base.run import Run
 from tests.desk import until
 
 
-@pytest.fixture
-def in_the_cell(sit_at, brisk):
-    desk = sit_at("two", robot="irb120")
-    desk.press("Open the cell")
-    return desk, desk.view("run")
-
-
 def test_while_nests_are_measured_the_state_says_so(in_the_cell):
     """It said WAITING, with "hold ENABLING" in the message line, while nests were measured without the switch."""
     desk, view = in_the_cell

@@ -125,13 +125,6 @@ def test_the_wizards_points_are_not_shown_beside_another_arm(desk):
     assert desk.live.read().points == ""
 
 
-@pytest.fixture
-def in_the_cell(sit_at, brisk):
-    desk = sit_at("two", robot="irb120")
-    desk.press("Open the cell")
-    return desk, desk.view("run")
-
-
 def test_a_step_in_which_nothing_moves_gives_its_keys_back(in_the_cell):
     """'Run this step' on the nests ended and left 'Stop the procedure' alone on the page."""
     desk, view = in_the_cell

@@ -209,9 +209,8 @@ def test_of_two_that_wait_for_each_others_rows_one_is_told_so_and_both_are_kept(
                     update(connection, second)
             except ConflictError:
                 conflicts.append(store)
-                for name in (
-                    order
-                ):  # as jobs of a shared commit: each alone, who asks for both again may meet the same
+                # As jobs of a shared commit, each alone: who asks for both again may meet the same.
+                for name in order:
                     store.database.write(lambda connection, name=name: update(connection, name))
 
         threads = [

@@ -47,12 +47,13 @@ def by_prediction(study: Study, unfinished: bool) -> Selection:
     kept = {g: v for g, v in chosen.items() if g in study.evidence.kept or g in events}
     alone, beside = {**kept, **every}, {**_beside(study, chosen, every), **every}
     far = Crossed(study, {**chosen, **every}, parts_of(len(study.y)), events)
-    plainly = (1.0 - PLAINLY) * far.total(chosen)
-    if not unfinished and study.state.joints > 1:
-        # What has no name would be pruned with a curve in time, and names be given without it: all of it stays.
-        return beside if far.total(beside) < plainly else chosen
-    if not unfinished and min(map(far.total, [alone, beside])) >= plainly:
-        return chosen
+    if not unfinished:
+        plainly = (1.0 - PLAINLY) * far.total(chosen)
+        if study.state.joints > 1:
+            # What has no name would be pruned with a curve in time, and names be given without it: all of it stays.
+            return beside if far.total(beside) < plainly else chosen
+        if min(map(far.total, [alone, beside])) >= plainly:
+            return chosen
     first = _earned(study)
     best = min([far.pruned(beside, every), alone, kept], key=far.total)
     return best if far.total(best) < (1.0 - PLAINLY) * far.total(first) else first
